@@ -22,6 +22,8 @@ const char* verbOf(ArcKind kind) {
       return "rolls";
     case ArcKind::pivot:
       return "pivots";
+    case ArcKind::ride:
+      return "rides";
   }
   return "";
 }

@@ -44,11 +44,11 @@ ConstrainedDynamics::ConstrainedDynamics(const BodyInstant<double>& body, const 
   b_.resize(unknowns);
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const ContactInstant<double>& c = contacts[k];
-    free_[k] = body.gravity + turning.cross(c.r) + body.omega.cross(Vec3(c.point_rate - body.v));
+    free_[k] = body.gravity + turning.cross(c.r) + body.omega.cross(Vec3(c.point_rate - body.v)) - c.support_acceleration;
     if (c.mode == ContactMode::sticks) {
       b_.segment<3>(first_[k]) = free_[k];
     } else {
-      b_[first_[k]] = c.n.dot(free_[k]) + c.normal_rate.dot(body.velocityAt(c.r));
+      b_[first_[k]] = c.n.dot(free_[k]) + c.normal_rate.dot(body.relativeVelocity(c));
     }
     for (std::size_t l = 0; l < contacts.size(); ++l) fill(k, l);
   }

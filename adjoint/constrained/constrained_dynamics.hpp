@@ -16,6 +16,8 @@ struct ContactInstant {
   V3<S> n, r;                   ///< normal towards the body; from its centre of mass to the contact
   V3<S> normal_rate;            ///< of n
   V3<S> point_rate;             ///< of the place of the contact
+  V3<S> support_velocity = V3<S>::Zero();      ///< of the material of the other body there, 0 where it stands still
+  V3<S> support_acceleration = V3<S>::Zero();  ///< d/dt of that
   S friction = 0;
   V3<S> slip = V3<S>::Zero();   ///< unit direction of its slip, where it slides
 
@@ -31,6 +33,8 @@ struct BodyInstant {
   S inverse_mass = 0;
 
   V3<S> velocityAt(const V3<S>& r) const { return v + omega.cross(r); }
+  /// Against the material of the other body.
+  V3<S> relativeVelocity(const ContactInstant<S>& c) const { return velocityAt(c.r) - c.support_velocity; }
 };
 
 /// The unknown forces y of all contacts (three numbers where one sticks, along the push of its normal force and its
@@ -52,14 +56,14 @@ class ConstrainedDynamics {
   Vec3 acceleration() const;
   Vec3 moment() const;
   Vec3 spinRate() const { return body_.A * Vec3(moment() - body_.omega.cross(body_.L)); }
-  /// d/dt of the velocity of the body where it is touched; also of a contact that has no force.
+  /// d/dt of the velocity of the body against what it touches there; also of a contact that has no force.
   Vec3 slipRate(std::size_t k) const;
   Vec3 slipRateAt(const ContactInstant<double>& c) const {
-    return acceleration() + spinRate().cross(c.r) + body_.omega.cross(Vec3(c.point_rate - body_.v));
+    return acceleration() + spinRate().cross(c.r) + body_.omega.cross(Vec3(c.point_rate - body_.v)) - c.support_acceleration;
   }
   /// d^2(gap)/dt^2.
   double gapAcceleration(const ContactInstant<double>& c) const {
-    return c.n.dot(slipRateAt(c)) + c.normal_rate.dot(body_.velocityAt(c.r));
+    return c.n.dot(slipRateAt(c)) + c.normal_rate.dot(body_.relativeVelocity(c));
   }
   /// How all forces answer as the direction of slip at contact l turns about its normal, by 1 rad.
   std::vector<Vec3> answerToTurn(std::size_t l, bool redundant) const;

@@ -66,12 +66,12 @@ ConstrainedForceRates::Rates ConstrainedForceRates::rowRates(const ConstrainedLa
   Rates rates(dynamics_.solution().size(), ConstrainedLanes::kColumns);
   for (std::size_t k = 0; k < lanes.contacts.size(); ++k) {
     const ContactInstant<Number>& c = lanes.contacts[k];
-    const V3<Number> slip_rate = answer.at(c.r) + body.omega.cross(V3<Number>(c.point_rate - body.v));
+    const V3<Number> slip_rate = answer.at(c.r) + body.omega.cross(V3<Number>(c.point_rate - body.v)) - c.support_acceleration;
     const Eigen::Index row = dynamics_.unknown(k);
     if (c.mode == ContactMode::sticks) {
       for (int i = 0; i < 3; ++i) takeRates(rates, row + i, slip_rate[i]);
     } else {
-      takeRates(rates, row, c.n.dot(slip_rate) + c.normal_rate.dot(body.velocityAt(c.r)));
+      takeRates(rates, row, c.n.dot(slip_rate) + c.normal_rate.dot(body.relativeVelocity(c)));
     }
   }
   return rates;

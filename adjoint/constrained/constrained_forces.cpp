@@ -85,7 +85,7 @@ void ConstrainedForces::assemble() {
   for (std::size_t k = 0; k < n; ++k) {
     const ContactInstant<double>& c = now_->contacts[k];
     first_[k] = row_.size();
-    free_[k] = body.gravity + turning.cross(c.r) + body.omega.cross(Vec3(c.point_rate - body.v));
+    free_[k] = body.gravity + turning.cross(c.r) + body.omega.cross(Vec3(c.point_rate - body.v)) - c.support_acceleration;
     const auto add = [&](const Vec3& along, const Vec3& push, double b) {
       Vec6 row, wrench;
       row << along, c.r.cross(along);
@@ -96,7 +96,7 @@ void ConstrainedForces::assemble() {
     if (c.mode == ContactMode::sticks) {
       for (int i = 0; i < 3; ++i) add(Vec3::Unit(i), Vec3::Unit(i), free_[k][i]);
     } else {
-      add(c.n, c.n - c.friction * c.slip, c.n.dot(free_[k]) + c.normal_rate.dot(body.velocityAt(c.r)));
+      add(c.n, c.n - c.friction * c.slip, c.n.dot(free_[k]) + c.normal_rate.dot(body.relativeVelocity(c)));
     }
   }
   y_.resize(row_.size());

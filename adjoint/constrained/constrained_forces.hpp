@@ -26,7 +26,7 @@ class ConstrainedForces {
   double pressing(std::size_t k) const { return now_->contacts[k].n.dot(force_[k]); }
   Vec3 acceleration() const { return now_->body.gravity + wrench_.head<3>() * now_->body.inverse_mass; }
   Vec3 moment() const { return wrench_.tail<3>(); }
-  /// d/dt of the velocity of the body where it is touched.
+  /// d/dt of the velocity of the body against what it touches there.
   Vec3 slipRate(std::size_t k) const { return free_[k] + responseAt(wrench_, k); }
 
   /// How the wrench of all forces answers as the direction of slip at contact k turns about its normal, by 1 rad.

@@ -11,10 +11,10 @@ bool isLength(const ConstrainedGuard& guard) {
 double forceUnit(const ConstrainedScene& scene) { return scene.model->mass * scene.speed * scene.speed / scene.length; }
 
 double borderValue(const ConstrainedGuard& guard, const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts,
-                   const Pose& own, const ContactInstant<double>& c) {
+                   const Pose& own, double t, const ContactInstant<double>& c) {
   const FeatureLimit& limit = guard.border;
   const PersistentContact& held = contacts[static_cast<std::size_t>(guard.contact)];
-  const Pose& pose = limit.body == held.with ? scene.with[static_cast<std::size_t>(guard.contact)] : own;
+  const Pose pose = limit.body == held.with ? scene.with[static_cast<std::size_t>(guard.contact)].poseAt(t) : own;
   const Vec3 at = pose.R.transpose() * (own.x + c.r - pose.x);
   double value = 0;
   if (limit.radius > 0) {
@@ -29,7 +29,8 @@ double borderValue(const ConstrainedGuard& guard, const ConstrainedScene& scene,
 
 }  // namespace
 
-std::vector<ConstrainedGuard> guardsOf(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const State& start) {
+std::vector<ConstrainedGuard> guardsOf(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const State& start,
+                                       double t) {
   std::vector<ConstrainedGuard> guards;
   const auto* bodies = dynamic_cast<const BodyGeometry*>(scene.geometry.get());
   const Pose own{start.x, scene.model->shapeToWorld(start.q.toRotationMatrix())};
@@ -41,8 +42,8 @@ std::vector<ConstrainedGuard> guardsOf(const ConstrainedScene& scene, const std:
     if (c.mode == ContactMode::slides && c.friction > 0) guards.push_back({TransitionCause::sticks, contact, -1, {}});
     if (!bodies) continue;
     std::vector<FeatureLimit> limits =
-        c.is_first ? bodies->limits(scene.body, c.with, c.features, own, scene.with[k])
-                   : bodies->limits(c.with, scene.body, c.features, scene.with[k], own);
+        c.is_first ? bodies->limits(scene.body, c.with, c.features, own, scene.with[k].poseAt(t))
+                   : bodies->limits(c.with, scene.body, c.features, scene.with[k].poseAt(t), own);
     for (std::size_t i = 0; i < limits.size(); ++i)
       if (!limits[i].point_weight.isZero(0) || limits[i].rolls_over)
         guards.push_back({TransitionCause::leaves, contact, static_cast<int>(i), std::move(limits[i])});
@@ -51,7 +52,7 @@ std::vector<ConstrainedGuard> guardsOf(const ConstrainedScene& scene, const std:
 }
 
 double guardValue(const ConstrainedGuard& guard, const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts,
-                  const Pose& own, const ConstrainedInstant& now, const ConstrainedForces& forces) {
+                  const Pose& own, double t, const ConstrainedInstant& now, const ConstrainedForces& forces) {
   const auto k = static_cast<std::size_t>(guard.contact);
   const ContactInstant<double>& c = now.contacts[k];
   switch (guard.cause) {
@@ -64,7 +65,7 @@ double guardValue(const ConstrainedGuard& guard, const ConstrainedScene& scene, 
     case TransitionCause::sticks:
       return c.slip.dot(now.velocityAt(k)) / scene.speed;
     case TransitionCause::leaves:
-      return borderValue(guard, scene, contacts, own, c);
+      return borderValue(guard, scene, contacts, own, t, c);
     default:
       return 1;
   }

@@ -19,14 +19,15 @@ struct ConstrainedGuard {
   bool isSame(const ConstrainedGuard& o) const { return cause == o.cause && contact == o.contact && limit == o.limit; }
 };
 
-/// All guards of a path that begins with `start`.
-std::vector<ConstrainedGuard> guardsOf(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const State& start);
+/// All guards of a path that has the state `start` at time t.
+std::vector<ConstrainedGuard> guardsOf(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const State& start,
+                                       double t);
 
-/// The value of a guard, and how much of it is rounding:
+/// The value of a guard at time t, and how much of it is rounding:
 ///   lifts   n.f / (m a);    slips   (mu n.f - |f_t|) / (m a);    sticks   t.u / c;    leaves   see FeatureLimit
 /// with the units of force m a and speed c of the scene. `shareOfMargin`: by what a value is to be multiplied to be without a unit.
 double guardValue(const ConstrainedGuard& guard, const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts,
-                  const Pose& own, const ConstrainedInstant& now, const ConstrainedForces& forces);
+                  const Pose& own, double t, const ConstrainedInstant& now, const ConstrainedForces& forces);
 double guardRounding(const ConstrainedGuard& guard, const ConstrainedScene& scene);
 double shareOfMargin(const ConstrainedGuard& guard, const ConstrainedScene& scene);
 

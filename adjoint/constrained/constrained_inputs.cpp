@@ -1,20 +1,57 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/constrained/constrained_inputs.hpp"
 
+#include "adjoint/base/errors.h"
+#include "adjoint/numeric/so3.hpp"
+
 namespace carom::adjoint_detail {
+
+SupportFlow SupportFlow::of(const Support& support, double start, double t) {
+  SupportFlow flow;
+  flow.now = t;
+  if (!support.moves()) return flow;
+  flow.moves = true, flow.elapsed = t - start;
+  const Kinematics k = support.arc->kinematicsAt(t);
+  flow.turned = k.R * support.pose.R.transpose();
+  flow.by_spin = flow.elapsed * leftJacobian(Vec3(flow.elapsed * k.w));
+  return flow;
+}
+
+Eigen::Matrix<double, 6, 1> SupportFlow::poseBy(int column) const {
+  Eigen::Matrix<double, 6, 1> by = Eigen::Matrix<double, 6, 1>::Zero();
+  if (column < 3) by[column] = 1;
+  else if (column < 6) by.tail<3>() = turned.col(column - 3);
+  else if (column < 9) by[column - 6] = elapsed;
+  else by.tail<3>() = by_spin.col(column - 9);
+  return by;
+}
+
+Eigen::VectorXd timeShift(const ConstrainedScene& scene, const ConstrainedInputs& inputs, double t) {
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(inputs.count);
+  for (std::size_t k = 0; k < scene.with.size(); ++k) {
+    const Support& support = scene.with[k];
+    if (!support.moves()) continue;
+    if (support.isGiven())
+      throw NotComputable("the derivative of a time at which contact changes on a support with a given trajectory is not known");
+    const Kinematics now = support.arc->kinematicsAt(t);
+    shift.segment<6>(inputs.partners[inputs.partner_of[k]].pose) << now.v, now.w;
+  }
+  return shift;
+}
 
 ConstrainedInputs::ConstrainedInputs(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const State& start) {
   const Pose own{start.x, scene.model->shapeToWorld(start.q.toRotationMatrix())};
-  std::vector<int> sizes;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const PersistentContact& c = contacts[k];
-    const ContactJacobian J = c.is_first ? scene.geometry->jacobian(scene.body, c.with, c.features, own, scene.with[k])
-                                         : scene.geometry->jacobian(c.with, scene.body, c.features, scene.with[k], own);
+    const ContactJacobian J = scene.jacobian(c, k, own, scene.time);
     size_count = static_cast<int>((c.is_first ? J.size_a : J.size_b).cols());
     std::size_t p = 0;
     while (p < partners.size() && partners[p].body != c.with) ++p;
-    if (p == partners.size())
+    if (p == partners.size()) {
       partners.push_back({c.with, 0, 0, static_cast<int>((c.is_first ? J.size_b : J.size_a).cols())});
+      if (scene.with[k].moves()) partners.back().velocity = 0;
+      if (scene.with[k].has_belt) partners.back().surface = 0;
+    }
     partner_of.push_back(p);
   }
   count = kSizes + size_count;
@@ -22,19 +59,24 @@ ConstrainedInputs::ConstrainedInputs(const ConstrainedScene& scene, const std::v
     p.pose = count;
     p.sizes = count + 6;
     count += 6 + p.size_count;
+    for (int* of : {&p.velocity, &p.surface})
+      if (*of >= 0) *of = count, count += 6;
   }
   friction = count;
   count += static_cast<int>(contacts.size());
 }
 
 std::optional<Eigen::Matrix<double, 7, 1>> ConstrainedInputs::columnOf(const ContactJacobian& J, const PersistentContact& contact,
-                                                                std::size_t k, int column) const {
+                                                                std::size_t k, int column, const SupportFlow& flow) const {
   const Partner& p = partners[partner_of[k]];
   const int own = contact.is_first ? 0 : 6, other = 6 - own;
   const auto &own_sizes = contact.is_first ? J.size_a : J.size_b, &other_sizes = contact.is_first ? J.size_b : J.size_a;
   if (column < 6) return J.pose.col(own + column);
   if (column >= kSizes && column < kSizes + size_count) return own_sizes.col(column - kSizes);
-  if (column >= p.pose && column < p.sizes) return J.pose.col(other + column - p.pose);
+  const bool in_pose = column >= p.pose && column < p.sizes;
+  const bool in_velocity = p.velocity >= 0 && column >= p.velocity && column < p.velocity + 6;
+  if (in_pose && !flow.moves) return J.pose.col(other + column - p.pose);
+  if (in_pose || in_velocity) return J.pose.middleCols<6>(other) * flow.poseBy(in_pose ? column - p.pose : 6 + column - p.velocity);
   if (column >= p.sizes && column < p.sizes + p.size_count) return other_sizes.col(column - p.sizes);
   return std::nullopt;
 }

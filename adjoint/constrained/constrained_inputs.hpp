@@ -8,13 +8,28 @@
 
 namespace carom::adjoint_detail {
 
+/// How the pose of a support has gone since the start of a path: (x, theta) there, and V and W, by which it varies now.
+struct SupportFlow {
+  bool moves = false;
+  double now = 0;                     ///< s
+  double elapsed = 0;                 ///< s
+  Mat3 turned = Mat3::Identity();     ///< theta by that at the start
+  Mat3 by_spin = Mat3::Zero();        ///< theta by W
+  /// At time t, where it moves uniformly from `start` on.
+  static SupportFlow of(const Support& support, double start, double t);
+  /// (x, theta) by a column of its pose or, from 6 on, of its velocities.
+  Eigen::Matrix<double, 6, 1> poseBy(int column) const;
+};
+
 /// All that a path in lasting contact depends on, in columns: its start (x, theta, v, L), then gravity, mass, inertia
 /// (three moments and yz, xz, xy), the dimensions of the body; of each body that it is in contact with position and
-/// orientation (a rotation vector), 6, and dimensions; the friction of each contact.
+/// orientation (a rotation vector) at the start of the path, 6, and dimensions; of one that moves velocity and angular velocity,
+/// 6; of one whose surface moves the velocities of that, 6; the friction of each contact.
 struct ConstrainedInputs {
   static constexpr int kStart = 12, kGravity = 12, kMass = 15, kInertia = 16, kProducts = 19, kSizes = 22;
   struct Partner {
     int body, pose, sizes, size_count;
+    int velocity = -1, surface = -1;  // -1: it has none
   };
   int size_count = 0, friction = 0, count = 0;
   std::vector<Partner> partners;
@@ -22,9 +37,12 @@ struct ConstrainedInputs {
 
   ConstrainedInputs(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const State& start);
 
-  /// Of a derivative of a pair's geometry what belongs to a column; nothing where that does not move the pair.
+  /// Of a derivative of a pair's geometry what belongs to a column; nothing where that does not move the pair. `flow`: of the support.
   std::optional<Eigen::Matrix<double, 7, 1>> columnOf(const ContactJacobian& J, const PersistentContact& contact, std::size_t k,
-                                                      int column) const;
+                                                      int column, const SupportFlow& flow) const;
+  /// The support of contact k, with its rates along the columns first, first + 1, ...
+  template <class Number>
+  SupportInstant<Number> supportOf(const Support& support, std::size_t k, int first, int columns, const SupportFlow& flow) const;
 
   /// The chain rule where the state has the derivative `state`, 12 rows, by the inputs: rows by all inputs.
   static Eigen::MatrixXd chained(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& state) {
@@ -34,6 +52,10 @@ struct ConstrainedInputs {
   }
 };
 
+/// How the inputs at the start of a path would change over time with the supports that move, as these do at time t: nothing but
+/// their poses, which go at V and W. Throws NotComputable where one is given and may accelerate.
+Eigen::VectorXd timeShift(const ConstrainedScene& scene, const ConstrainedInputs& inputs, double t);
+
 inline Eigen::Matrix<double, 12, 1> asVector(const StateDerivative& d) {
   return (Eigen::Matrix<double, 12, 1>() << d.x, d.theta, d.v, d.L).finished();
 }
@@ -41,6 +63,36 @@ inline StateDerivative asState(const Eigen::Matrix<double, 12, 1>& v) {
   StateDerivative d;
   d.x = v.head<3>(), d.theta = v.segment<3>(3), d.v = v.segment<3>(6), d.L = v.tail<3>();
   return d;
+}
+
+template <class Number>
+SupportInstant<Number> ConstrainedInputs::supportOf(const Support& support, std::size_t k, int first, int columns,
+                                                    const SupportFlow& flow) const {
+  const SupportInstant<double> at = support.at(flow.now);
+  SupportInstant<Number> now;
+  now.x = at.x.cast<Number>(), now.R = at.R.cast<Number>(), now.v = at.v.cast<Number>(), now.w = at.w.cast<Number>();
+  now.a = at.a.cast<Number>(), now.alpha = at.alpha.cast<Number>();
+  now.has_belt = at.has_belt, now.center = at.center.cast<Number>();
+  now.surface_velocity = at.surface_velocity.cast<Number>();
+  now.surface_angular_velocity = at.surface_angular_velocity.cast<Number>();
+  const Partner& p = partners[partner_of[k]];
+  for (int lane = 0; lane < columns; ++lane) {
+    const int column = first + lane, pose = column - p.pose, velocity = column - p.velocity, surface = column - p.surface;
+    const auto i = static_cast<std::size_t>(lane);
+    const auto in_pose = [&](int of) {
+      const Eigen::Matrix<double, 6, 1> by = flow.poseBy(of);
+      setRates(now.x, Vec3(by.head<3>()), i);
+      setRates(now.R, Mat3(skew(Vec3(by.tail<3>())) * at.R), i);
+    };
+    if (pose >= 0 && pose < 6) in_pose(pose);
+    if (p.velocity >= 0 && velocity >= 0 && velocity < 6) {
+      in_pose(6 + velocity);
+      (velocity < 3 ? now.v[velocity] : now.w[velocity - 3]).rate[i] = 1;
+    }
+    if (p.surface >= 0 && surface >= 0 && surface < 6)
+      (surface < 3 ? now.surface_velocity[surface] : now.surface_angular_velocity[surface - 3]).rate[i] = 1;
+  }
+  return now;
 }
 
 }  // namespace carom::adjoint_detail

@@ -4,7 +4,7 @@
 namespace carom::adjoint_detail {
 
 void placeInstant(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const State& state, const Mat3& R,
-                  ConstrainedInstant& now) {
+                  double t, ConstrainedInstant& now) {
   const BodyModel& model = *scene.model;
   BodyInstant<double>& body = now.body;
   body.v = state.v, body.L = state.L, body.gravity = scene.gravity;
@@ -16,7 +16,7 @@ void placeInstant(const ConstrainedScene& scene, const std::vector<PersistentCon
   now.gap_rate.resize(contacts.size());
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const PersistentContact& held = contacts[k];
-    const ContactMotion m = scene.contact(held, k, pose, state.v, body.omega);
+    const ContactMotion m = scene.contact(held, k, pose, {state.v, body.omega}, t);
     const double sign = held.is_first ? 1 : -1;
     ContactInstant<double>& c = now.contacts[k];
     c.mode = held.mode;
@@ -24,13 +24,17 @@ void placeInstant(const ConstrainedScene& scene, const std::vector<PersistentCon
     c.r = m.at.point - state.x, c.point_rate = m.point_rate;
     c.friction = held.friction;
     now.gap_rate[k] = m.gap_rate;
+    if (!scene.with[k].drives()) continue;
+    const SupportInstant<double> support = scene.with[k].at(t);
+    c.support_velocity = support.velocityAt(m.at.point, c.n);
+    c.support_acceleration = support.accelerationAt(m.at.point, c.n, m.point_rate, c.normal_rate);
   }
 }
 
 ConstrainedInstant instantOf(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const State& state,
-                      const std::vector<Vec3>& slip) {
+                      double t, const std::vector<Vec3>& slip) {
   ConstrainedInstant now;
-  placeInstant(scene, contacts, state, state.q.toRotationMatrix(), now);
+  placeInstant(scene, contacts, state, state.q.toRotationMatrix(), t, now);
   for (std::size_t k = 0; k < contacts.size(); ++k) now.contacts[k].slip = slip[k];
   return now;
 }

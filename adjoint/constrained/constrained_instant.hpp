@@ -14,19 +14,20 @@ struct ConstrainedInstant {
   std::vector<ContactInstant<double>> contacts;
   std::vector<double> gap_rate;
 
-  Vec3 velocityAt(std::size_t k) const { return body.velocityAt(contacts[k].r); }
+  /// Against what it touches.
+  Vec3 velocityAt(std::size_t k) const { return body.relativeVelocity(contacts[k]); }
   Vec3 slipAt(std::size_t k) const {
     const Vec3 u = velocityAt(k), &n = contacts[k].n;
     return u - n.dot(u) * n;
   }
 };
 
-/// All but the directions of slip, in the storage that `now` has. R: of the state.
+/// All but the directions of slip at time t, in the storage that `now` has. R: of the state.
 void placeInstant(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const State& state, const Mat3& R,
-                  ConstrainedInstant& now);
+                  double t, ConstrainedInstant& now);
 /// `slip`: a direction for each contact.
 ConstrainedInstant instantOf(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const State& state,
-                      const std::vector<Vec3>& slip);
+                      double t, const std::vector<Vec3>& slip);
 
 /// The part of a direction along the plane of a normal, of unit length.
 inline Vec3 inPlane(const Vec3& d, const Vec3& n) { return (d - n.dot(d) * n).normalized(); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/constrained/constrained_linearization.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "adjoint/motion/pair_rules.hpp"
@@ -67,12 +68,14 @@ std::shared_ptr<const PathGuard> ConstrainedPath::guardOfEnd(const Motion& motio
     if (c.features == first.features && c.with == (first.a == scene_.body ? first.b : first.a)) guard.contact = static_cast<int>(k);
   }
   const auto columns = std::make_shared<const ConstrainedColumns>(motion, *this);
-  return guardWith(columns, guardRow(*this, columns->inputs(), guard, event.time));
+  return guardWith(columns, guardRow(*this, columns->inputs(), guard, event.time), timeShift(scene_, columns->inputs(), event.time));
 }
 
-std::shared_ptr<const PathGuard> guardWith(std::shared_ptr<const ConstrainedColumns> columns, const ConstrainedRow& row) {
+std::shared_ptr<const PathGuard> guardWith(std::shared_ptr<const ConstrainedColumns> columns, const ConstrainedRow& row,
+                                           const Eigen::VectorXd& shift) {
   auto made = std::make_shared<PathGuard>();
   made->by_state = asState(row.head<12>().transpose());
+  made->by_time = row.dot(shift);
   Eigen::VectorXd others = row.transpose();
   others.head<12>().setZero();
   made->tangent = [columns, others](const SceneTangent& dscene, const BodyModelDerivative& dmodel) {
@@ -86,7 +89,7 @@ std::shared_ptr<const PathGuard> guardWith(std::shared_ptr<const ConstrainedColu
 
 ConstrainedColumns::ConstrainedColumns(const Motion& motion, const ConstrainedScene& held, const std::vector<PersistentContact>& contacts,
                          const State& state)
-    : body_(held.body), inputs_(held, contacts, state) {
+    : scene_(motion.scene.get()), body_(held.body), inputs_(held, contacts, state) {
   const Scene& scene = *motion.scene;
   const auto material = [&](int body) -> const Material& { return materialOf(scene, scene.bodies[constrainedIndex(body)]); };
   for (const PersistentContact& c : contacts) {
@@ -95,6 +98,40 @@ ConstrainedColumns::ConstrainedColumns(const Motion& motion, const ConstrainedSc
     friction_.push_back({materialIndexOf(scene, body_), materialIndexOf(scene, c.with), c.is_first ? rule.by_a : rule.by_b,
                          c.is_first ? rule.by_b : rule.by_a});
   }
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    if (held.with[k].moves() && !held.with[k].isGiven() && !carrierOf(contacts[k].with)) {
+      const int body = contacts[k].with;
+      Support from_start = held.with[k];
+      from_start.pose = from_start.poseAt(0);
+      carriers_.push_back({body, &(*motion.models)[constrainedIndex(body)], SupportFlow::of(from_start, 0, held.time)});
+    }
+}
+
+const ConstrainedColumns::Carrier* ConstrainedColumns::carrierOf(int body) const {
+  const auto at = std::ranges::find(carriers_, body, &Carrier::body);
+  return at == carriers_.end() ? nullptr : &*at;
+}
+
+// Its state at the start of the path, which it comes to uniformly from that of the scene; its L is its angular velocity.
+StateDerivative ConstrainedColumns::carried(const Carrier& carrier, const SceneTangent& dscene) const {
+  const Body& body = scene_->bodies[constrainedIndex(carrier.body)];
+  const BodyDerivative& dbody = dscene.bodies[constrainedIndex(carrier.body)];
+  const BodyModelDerivative dmodel = modelTangent(body, *carrier.model, dbody);
+  StateDerivative d = startTangent(body, *carrier.model, dbody, dmodel);
+  d.x += carrier.flow.elapsed * d.v;
+  d.theta = carrier.flow.turned * d.theta + carrier.flow.by_spin * d.L;
+  return d;
+}
+
+void ConstrainedColumns::carriedPullback(const Carrier& carrier, const Eigen::Matrix<double, 12, 1>& bar, SceneGradient& scene_bar) const {
+  const Body& body = scene_->bodies[constrainedIndex(carrier.body)];
+  StateDerivative d = asState(bar);
+  d.v += carrier.flow.elapsed * d.x;
+  d.L += carrier.flow.by_spin.transpose() * d.theta;
+  d.theta = carrier.flow.turned.transpose() * d.theta;
+  BodyModelDerivative model_bar;
+  startPullback(body, *carrier.model, d, scene_bar.bodies[constrainedIndex(carrier.body)], model_bar);
+  modelPullback(body, *carrier.model, model_bar, scene_bar.bodies[constrainedIndex(carrier.body)]);
 }
 
 Eigen::VectorXd ConstrainedColumns::tangent(const StateDerivative& start, const SceneTangent& dscene,
@@ -109,8 +146,14 @@ Eigen::VectorXd ConstrainedColumns::tangent(const StateDerivative& start, const 
   d.segment(I::kSizes, inputs_.size_count) = dscene.bodies[constrainedIndex(body_)].size;
   for (const I::Partner& p : inputs_.partners) {
     const BodyDerivative& body = dscene.bodies[constrainedIndex(p.body)];
-    d.segment<3>(p.pose) = body.position;
-    d.segment<3>(p.pose + 3) = body.orientation;
+    if (p.velocity < 0) {
+      d.segment<3>(p.pose) = body.position;
+      d.segment<3>(p.pose + 3) = body.orientation;
+    } else if (const Carrier* carrier = carrierOf(p.body)) {
+      const StateDerivative start_of = carried(*carrier, dscene);
+      d.segment<6>(p.pose) << start_of.x, start_of.theta;
+      d.segment<6>(p.velocity) << start_of.v, start_of.L;
+    }
     d.segment(p.sizes, p.size_count) = body.size;
   }
   const auto of = [&](int m) { return m < 0 ? 0 : dscene.materials[constrainedIndex(m)].friction; };
@@ -131,8 +174,14 @@ StateDerivative ConstrainedColumns::pullback(const Eigen::VectorXd& bar, SceneGr
   if (inputs_.size_count > 0) scene_bar.bodies[constrainedIndex(body_)].size += bar.segment(I::kSizes, inputs_.size_count);
   for (const I::Partner& p : inputs_.partners) {
     BodyDerivative& body = scene_bar.bodies[constrainedIndex(p.body)];
-    body.position += bar.segment<3>(p.pose);
-    body.orientation += bar.segment<3>(p.pose + 3);
+    if (p.velocity < 0) {
+      body.position += bar.segment<3>(p.pose);
+      body.orientation += bar.segment<3>(p.pose + 3);
+    } else if (const Carrier* carrier = carrierOf(p.body)) {
+      Eigen::Matrix<double, 12, 1> at_start;
+      at_start << bar.segment<6>(p.pose), bar.segment<6>(p.velocity);
+      carriedPullback(*carrier, at_start, scene_bar);
+    }
     if (p.size_count > 0) body.size += bar.segment(p.sizes, p.size_count);
   }
   for (std::size_t k = 0; k < friction_.size(); ++k) {

@@ -28,12 +28,25 @@ class ConstrainedColumns {
     int own, other;  // materials; -1 for none
     double by_own, by_other;
   };
+  // A support that moves: its start as the scene has it, and how far its pose at the start of the path goes with that.
+  struct Carrier {
+    int body;
+    const BodyModel* model;
+    SupportFlow flow;  // from time 0 on
+  };
+  const Carrier* carrierOf(int body) const;
+  StateDerivative carried(const Carrier& carrier, const SceneTangent& dscene) const;
+  void carriedPullback(const Carrier& carrier, const Eigen::Matrix<double, 12, 1>& bar, SceneGradient& scene_bar) const;
+
+  const Scene* scene_;
   int body_;
   ConstrainedInputs inputs_;
+  std::vector<Carrier> carriers_;
   std::vector<Friction> friction_;
 };
 
-/// The row of a guard at a time, by the inputs that `columns` has.
-std::shared_ptr<const PathGuard> guardWith(std::shared_ptr<const ConstrainedColumns> columns, const ConstrainedRow& row);
+/// The row of a guard at a time, by the inputs that `columns` has. `shift`: how these go with time.
+std::shared_ptr<const PathGuard> guardWith(std::shared_ptr<const ConstrainedColumns> columns, const ConstrainedRow& row,
+                                           const Eigen::VectorXd& shift);
 
 }  // namespace carom::adjoint_detail

@@ -278,9 +278,12 @@ class ModeSearch : private ContactWays {
 ConstrainedModes chooseModes(const ConstrainedScene& scene, const std::vector<PersistentContact>& candidates, const State& state,
                       const ModeHint& hint, double no_slip) {
   ModeSearch search(scene, candidates, state, no_slip);
-  if (hint.beyond)
-    if (std::optional<ConstrainedModes> modes = search.runBeyond(ModeSearch(scene, candidates, *hint.beyond, no_slip), hint))
+  if (hint.beyond) {
+    ConstrainedScene later = scene;
+    later.time = hint.beyond->second;
+    if (std::optional<ConstrainedModes> modes = search.runBeyond(ModeSearch(later, candidates, hint.beyond->first, no_slip), hint))
       return *std::move(modes);
+  }
   return search.run(hint);
 }
 

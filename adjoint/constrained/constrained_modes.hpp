@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adjoint/constrained/constrained_step.hpp"
@@ -24,7 +25,8 @@ struct ModeHint {
   TransitionCause cause = TransitionCause::none;
   int contact = -1;  ///< of the candidates: the one that a transition is about
   double no_slip = 0;  ///< m/s: slips that are slower count as none, too
-  std::optional<State> beyond;  ///< the body a little later in the modes that end: at the transition itself both may hold
+  /// The body a little later, and when, in the modes that end: at the transition itself both may hold.
+  std::optional<std::pair<State, double>> beyond;
   std::vector<std::size_t> idle;  ///< of the candidates: they did not hold the body, and come to it only if they fall
 };
 

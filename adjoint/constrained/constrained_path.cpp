@@ -68,7 +68,7 @@ ConstrainedPath::ConstrainedPath(ConstrainedScene scene, std::vector<PersistentC
       known_(time),
       stopped_(std::move(stopped)) {
   findRims();
-  const ConstrainedInstant now = instantOf(scene_, contacts_, start, slipAfter());
+  const ConstrainedInstant now = instantOf(scene_, contacts_, start, time, slipAfter());
   const double spin = now.body.omega.norm() + std::sqrt(scene_.gravity.norm() / scene_.length);
   next_length_ = kFirstTurn / spin;
   ConstrainedForces forces;
@@ -76,17 +76,9 @@ ConstrainedPath::ConstrainedPath(ConstrainedScene scene, std::vector<PersistentC
   bounds_.acceleration = forces.acceleration();
   bounds_.straight = false;
   for (const ContactInstant<double>& c : now.contacts)
-    rolls_ = rolls_ || (c.mode == ContactMode::sticks && c.point_rate.norm() > 1e-6 * scene_.speed);
+    rolls_ = rolls_ || (c.mode == ContactMode::sticks && (c.point_rate - c.support_velocity).norm() > 1e-6 * scene_.speed);
+  rides_ = goesWithSupport(now);
   if (start_ < until_) extend();
-}
-
-bool ConstrainedPath::slides() const {
-  return std::ranges::any_of(contacts_, [](const PersistentContact& c) { return c.mode == ContactMode::slides; });
-}
-
-ArcKind ConstrainedPath::kind() const {
-  if (slides()) return ArcKind::slide;
-  return rolls_ ? ArcKind::roll : ArcKind::pivot;
 }
 
 void ConstrainedPath::extendTo(const Arc&, double t) {
@@ -105,7 +97,7 @@ std::vector<Vec3> ConstrainedPath::slipAfter() const {
 double ConstrainedPath::lookAtSlips(ConstrainedStepper::Start& start) const {
   double longest = kInfinity;
   if (!slides()) return longest;
-  const ConstrainedInstant now = instantOf(scene_, contacts_, start.state, start.slip);
+  const ConstrainedInstant now = instantOf(scene_, contacts_, start.state, start.time, start.slip);
   ConstrainedForces forces;
   forces.solve(now, redundant_);
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
@@ -199,10 +191,10 @@ double ConstrainedPath::shorterLength(double length, double error, const std::op
 }
 
 // What steps leave out adds up: gaps and speeds that are 0 are taken back to it, as at the start, by as little as rounding.
-State ConstrainedPath::stayingOn(const State& state) const {
+State ConstrainedPath::stayingOn(const State& state, double t) const {
   std::vector<PersistentContact> contacts = contacts_;
   for (PersistentContact& c : contacts) c.begins = false;
-  return constrainedStart(scene_, contacts, state, 1);
+  return constrainedStart(scene_, contacts, state, t, 1);
 }
 
 void ConstrainedPath::take(ConstrainedStep step) {
@@ -220,7 +212,7 @@ void ConstrainedPath::take(ConstrainedStep step) {
     bounds_.spin_rate = std::max(bounds_.spin_rate, bend + spin * spin);
     known_ = step.start + step.length;
     const State end = step.stateAt(known_);
-    last_ = endsFlat() ? end : stayingOn(end);
+    last_ = endsFlat() ? end : stayingOn(end, known_);
     if (!((last_.v - end.v).norm() <= kMostTakenBack * scene_.speed))
       throw NotComputable("the normal velocity left at the contacts of its path is more than rounding");
   }
@@ -312,7 +304,7 @@ ConstrainedInstant ConstrainedPath::instantAt(double t) const {
     if (!(t > start_))
       for (std::size_t k = 0; k < contacts_.size(); ++k) slip[k] = contacts_[k].slip;
   }
-  ConstrainedInstant now = instantOf(scene_, contacts_, stateAt(t), slip);
+  ConstrainedInstant now = instantOf(scene_, contacts_, stateAt(t), t, slip);
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     if (contacts_[k].mode != ContactMode::slides || !(contacts_[k].friction > 0)) continue;
     ContactInstant<double>& c = now.contacts[k];

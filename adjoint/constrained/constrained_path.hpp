@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adjoint/flight/trajectory.hpp"
@@ -11,8 +12,8 @@
 
 namespace carom::adjoint_detail {
 
-/// The path of a body that contacts hold to bodies which stand still, at frozen features and in frozen modes: as many
-/// steps as somebody has looked at, up to the first guard that falls to 0.
+/// The path of a body that contacts hold to bodies which stand still, or move as they are given to, at frozen features and in
+/// frozen modes: as many steps as somebody has looked at, up to the first guard that falls to 0.
 class ConstrainedPath final : public Trajectory {
  public:
   struct Ending {
@@ -71,9 +72,9 @@ class ConstrainedPath final : public Trajectory {
   const std::vector<Vec3>& stopped() const { return stopped_; }
   /// Whether what its start took away of speeds is more than rounding.
   bool stopsSpeeds() const;
-  /// Where it ends as a contact slips or lifts: the state a little later in the same modes, in which that contact's force
+  /// Where it ends as a contact slips or lifts: the state a little later, and when, in the same modes, in which that contact's force
   /// has clearly left its cone; none where it hardly does.
-  std::optional<State> beyondEnd() const;
+  std::optional<std::pair<State, double>> beyondEnd() const;
   /// That whose slip ends it.
   std::optional<std::size_t> contactThatStops() const;
   /// The body and its contacts; where a slip is too slow to have a direction of its own, that of the step, and at its end
@@ -123,8 +124,9 @@ class ConstrainedPath final : public Trajectory {
   bool passesBy(const ConstrainedStep& step, const Ending& end) const;
   std::string tooManySteps() const;
   std::string jamAt(const ConstrainedStepper::Start& start) const;
-  State stayingOn(const State& state) const;
+  State stayingOn(const State& state, double t) const;
   void take(ConstrainedStep step);
+  bool goesWithSupport(const ConstrainedInstant& now) const;
 
   ConstrainedScene scene_;
   std::vector<PersistentContact> contacts_;
@@ -137,7 +139,7 @@ class ConstrainedPath final : public Trajectory {
   ConstrainedSteps steps_;
   std::optional<Ending> end_;
   TrajectoryBounds bounds_;
-  bool rolls_ = false;
+  bool rolls_ = false, rides_ = false;
 };
 
 }  // namespace carom::adjoint_detail

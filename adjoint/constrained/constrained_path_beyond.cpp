@@ -11,7 +11,7 @@ constexpr double kClearlyBeyond = 1e-7;
 
 }  // namespace
 
-std::optional<State> ConstrainedPath::beyondEnd() const {
+std::optional<std::pair<State, double>> ConstrainedPath::beyondEnd() const {
   if (!end_ || (end_->guard.cause != TransitionCause::slips && end_->guard.cause != TransitionCause::lifts)) return std::nullopt;
   const std::size_t which = indexOf(end_->guard);
   ConstrainedStepper stepper(scene_, contacts_, redundant_);
@@ -20,7 +20,7 @@ std::optional<State> ConstrainedPath::beyondEnd() const {
     const std::optional<ConstrainedStep> step = stepper.tried(start, share * scene_.length / scene_.speed, nullptr);
     if (!step) return std::nullopt;
     const double later = step->start + step->length;
-    if (Values(*this, *step).at(later)[which] < -kClearlyBeyond) return step->stateAt(later);
+    if (Values(*this, *step).at(later)[which] < -kClearlyBeyond) return std::pair(step->stateAt(later), later);
   }
   return std::nullopt;
 }

@@ -82,7 +82,7 @@ std::string ConstrainedPath::tooManySteps() const {
 // Of a contact that slides: how its gap answers to the push n - mu d, while the others hold, over how it does to n. Where that
 // comes down to 0 its force grows beyond any bound: it jams (Painleve).
 std::string ConstrainedPath::jamAt(const ConstrainedStepper::Start& start) const {
-  const ConstrainedInstant now = instantOf(scene_, contacts_, start.state, start.slip);
+  const ConstrainedInstant now = instantOf(scene_, contacts_, start.state, start.time, start.slip);
   Eigen::MatrixXd inverse;
   const ConstrainedDynamics forces(now.body, now.contacts, redundant_, &inverse);
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
@@ -103,6 +103,7 @@ void ConstrainedPath::findRims() {
   const auto* geometry = dynamic_cast<const RimGeometry*>(scene_.geometry.get());
   for (std::size_t k = 0; k < contacts_.size() && geometry; ++k) {
     const PersistentContact& c = contacts_[k];
+    if (scene_.with[k].moves()) continue;
     const auto rim = c.is_first ? geometry->rimOnFace(scene_.body, c.with, c.features)
                                 : geometry->rimOnFace(c.with, scene_.body, c.features);
     if (rim && rim->features == c.features && rim->of_first == c.is_first) rims_[k] = rim;
@@ -111,7 +112,7 @@ void ConstrainedPath::findRims() {
 
 ConstrainedPath::Tilt ConstrainedPath::tiltOf(std::size_t k, const State& state) const {
   const Mat3 R = state.q.toRotationMatrix();
-  const Vec3 d = scene_.model->shapeToWorld(R) * rims_[k]->axis, N = scene_.with[k].R * rims_[k]->normal;
+  const Vec3 d = scene_.model->shapeToWorld(R) * rims_[k]->axis, N = scene_.with[k].pose.R * rims_[k]->normal;
   const Vec3 omega = scene_.model->inverseInertiaWorld(R) * state.L;
   return {RimOnFace::tilt(d, N), RimOnFace::tilt(omega.cross(d), N)};
 }
@@ -126,11 +127,11 @@ std::optional<ConstrainedPath::FlatAhead> ConstrainedPath::flatAhead(const Const
     const double sine = tilt.x.norm(), speed = tilt.rate.norm(), across = 2 * rims_[k]->radius;
     if (!(tilt.x.dot(tilt.rate) < 0) || (steps_.empty() && !(across * sine > flat))) continue;
     if (!(across * tilt.x.cross(tilt.rate).norm() <= flat * speed)) continue;
-    const ConstrainedInstant now = instantOf(scene_, contacts_, start.state, start.slip);
+    const ConstrainedInstant now = instantOf(scene_, contacts_, start.state, start.time, start.slip);
     ConstrainedForces forces;
     forces.solve(now, redundant_);
     const Mat3 R = start.state.q.toRotationMatrix();
-    const Vec3 d = scene_.model->shapeToWorld(R) * rims_[k]->axis, N = scene_.with[k].R * rims_[k]->normal, &omega = now.body.omega;
+    const Vec3 d = scene_.model->shapeToWorld(R) * rims_[k]->axis, N = scene_.with[k].pose.R * rims_[k]->normal, &omega = now.body.omega;
     const Vec3 spin_rate = now.body.A * (forces.moment() - omega.cross(now.body.L));
     const Vec3 bend = RimOnFace::tilt(spin_rate.cross(d) + omega.cross(omega.cross(d)), N);
     const Vec3 axis = tilt.x / sine;
@@ -190,7 +191,7 @@ bool ConstrainedPath::passesFlat(const ConstrainedStep& step) const {
 // A slip that was expected to end has not.
 bool ConstrainedPath::passesBy(const ConstrainedStep& step, const Ending& end) const {
   if (end.guard.cause != TransitionCause::sticks) return false;
-  const ConstrainedInstant now = instantOf(scene_, contacts_, step.stateAt(step.start + step.length),
+  const ConstrainedInstant now = instantOf(scene_, contacts_, step.stateAt(step.start + step.length), step.start + step.length,
                                     step.slipAtNode(Gauss::kNodes - 1));
   const auto k = static_cast<std::size_t>(end.guard.contact);
   return now.slipAt(k).norm() > (step.frozen[k] ? kStraightLeft : kNothingLeft) * scene_.speed;

@@ -33,7 +33,7 @@ struct ConstrainedPath::Values {
   const std::vector<double>& withSlips(double t) {
     const State s = step.stateAt(t);
     const Mat3 R = s.q.toRotationMatrix();
-    placeInstant(path.scene_, path.contacts_, s, R, now);
+    placeInstant(path.scene_, path.contacts_, s, R, t, now);
     for (std::size_t k = 0; k < slip.size(); ++k) {
       ContactInstant<double>& c = now.contacts[k];
       c.slip = slip[k];
@@ -43,7 +43,7 @@ struct ConstrainedPath::Values {
     forces.share();
     const Pose own{s.x, path.scene_.model->shapeToWorld(R)};
     for (std::size_t g = 0; g < values.size(); ++g)
-      values[g] = guardValue(path.guards_[g], path.scene_, path.contacts_, own, now, forces);
+      values[g] = guardValue(path.guards_[g], path.scene_, path.contacts_, own, t, now, forces);
     return values;
   }
 };

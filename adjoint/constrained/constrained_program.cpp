@@ -19,7 +19,7 @@ ConeProgramOf<double> programOf(const BodyInstant<double>& body, std::vector<Con
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const ContactInstant<double>& c = contacts[k];
     program.normal.push_back(c.n), program.friction.push_back(c.friction);
-    program.b.segment<3>(all.unknown(k)) += c.normal_rate.dot(body.velocityAt(c.r)) * c.n;
+    program.b.segment<3>(all.unknown(k)) += c.normal_rate.dot(body.relativeVelocity(c)) * c.n;
   }
   program.offset.assign(contacts.size(), 0.0), program.free.assign(contacts.size(), 0);
   return program;

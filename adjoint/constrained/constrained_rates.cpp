@@ -4,12 +4,13 @@
 namespace carom::adjoint_detail {
 
 ConstrainedRates::ConstrainedRates(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const ConstrainedInputs& inputs,
-                     const State& state, std::vector<Vec3> slip, bool may_be_flat)
+                     const State& state, double t, std::vector<Vec3> slip, bool may_be_flat)
     : scene_(scene), contacts_(contacts), inputs_(inputs), state_(state), slip_(std::move(slip)),
-      now_(instantOf(scene, contacts, state, slip_)),
+      now_(instantOf(scene, contacts, state, t, slip_)),
       own_{state.x, scene.model->shapeToWorld(state.q.toRotationMatrix())} {
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const PersistentContact& c = contacts[k];
+    flows_.push_back(SupportFlow::of(scene.with[k], scene.time, t));
     if (const double speed = now_.slipAt(k).norm(); follows(k) && speed > 0) now_.contacts[k].slip = now_.slipAt(k) / speed;
     if (may_be_flat) flat_.push_back(FlatRim::of(scene, c, k, own_, now_.body.omega));
     if (may_be_flat && flat_.back()) {  // it has no derivatives there by the pose alone
@@ -17,10 +18,14 @@ ConstrainedRates::ConstrainedRates(const ConstrainedScene& scene, const std::vec
       continue;
     }
     const int a = c.is_first ? scene.body : c.with, b = c.is_first ? c.with : scene.body;
-    const Pose &A = c.is_first ? own_ : scene.with[k], &B = c.is_first ? scene.with[k] : own_;
+    const Pose other = scene.with[k].poseAt(t), &A = c.is_first ? own_ : other, &B = c.is_first ? other : own_;
     jacobians_.push_back(scene.geometry->jacobian(a, b, c.features, A, B));
     PairTangent way;
     way.pose.segment<6>(c.is_first ? 0 : 6) << state.v, now_.body.omega;
+    if (flows_.back().moves) {
+      const SupportInstant<double> support = scene.with[k].at(t);
+      way.pose.segment<6>(c.is_first ? 6 : 0) << support.v, support.w;
+    }
     jacobian_rates_.push_back(scene.geometry->jacobianRates(a, b, c.features, A, B, std::span(&way, 1)).front());
   }
 }
@@ -91,9 +96,15 @@ ContactInstant<ConstrainedLanes::Number> ConstrainedRates::contactLanes(const Co
   } else {
     placeLanes(of, k, first, count, c, gap);
   }
+  if (scene_.with[k].drives()) {
+    const auto support = inputs_.supportOf<Number>(scene_.with[k], k, first, count, flows_[k]);
+    const V3<Number> point = of.x + c.r;
+    c.support_velocity = support.velocityAt(point, c.n);
+    c.support_acceleration = support.accelerationAt(point, c.n, c.point_rate, c.normal_rate);
+  }
   c.slip = slip_[k].cast<Number>();
   if (follows(k)) {
-    const V3<Number> u = of.body.velocityAt(c.r), along_face = u - c.n * c.n.dot(u);
+    const V3<Number> u = of.body.relativeVelocity(c), along_face = u - c.n * c.n.dot(u);
     const Number speed = sqrt(along_face.squaredNorm());
     if (speed.value > 0) c.slip = along_face / speed;
   }
@@ -115,10 +126,35 @@ void ConstrainedRates::placeLanes(const ConstrainedLanes& of, std::size_t k, int
       normal += rate * (sign * jacobians_[k].pose(1 + i, own + j));
       place += rate * jacobians_[k].pose(4 + i, own + j);
     }
+    if (flows_[k].moves) addSupportRate(k, first, count, i, normal, place);
     c.normal_rate[i].rate = normal.rate, c.point_rate[i].rate = place.rate;
   }
   addGeometry(c, point, gap, k, first, count);
   c.r = point - of.x;
+}
+
+// J q' of the support, where its velocities change.
+void ConstrainedRates::addSupportRate(std::size_t k, int first, int count, int i, ConstrainedLanes::Number& normal,
+                                      ConstrainedLanes::Number& place) const {
+  const ConstrainedInputs::Partner& p = inputs_.partners[inputs_.partner_of[k]];
+  const double sign = contacts_[k].is_first ? 1 : -1;
+  const int other = contacts_[k].is_first ? 6 : 0;
+  for (int lane = 0; lane < count; ++lane) {
+    const int j = first + lane - p.velocity;
+    if (j < 0 || j >= 6) continue;
+    normal.rate[static_cast<std::size_t>(lane)] += sign * jacobians_[k].pose(1 + i, other + j);
+    place.rate[static_cast<std::size_t>(lane)] += jacobians_[k].pose(4 + i, other + j);
+  }
+}
+
+// Of J q' of the support as that turns by a: J (W x a).
+Eigen::Matrix<double, 7, 1> ConstrainedRates::bentBySupport(std::size_t k, int column) const {
+  const ConstrainedInputs::Partner& p = inputs_.partners[inputs_.partner_of[k]];
+  const bool in_pose = column >= p.pose && column < p.sizes;
+  if (!in_pose && !(column >= p.velocity && column < p.velocity + 6)) return Eigen::Matrix<double, 7, 1>::Zero();
+  const Vec3 turn = flows_[k].poseBy(in_pose ? column - p.pose : 6 + column - p.velocity).tail<3>();
+  const Vec3 W = scene_.with[k].at(flows_[k].now).w;
+  return jacobians_[k].pose.middleCols<3>(contacts_[k].is_first ? 9 : 3) * W.cross(turn);
 }
 
 // Where columns move the pair: the gap, the normal and the point, and J q', where J changes. Second derivatives are
@@ -131,15 +167,16 @@ void ConstrainedRates::addGeometry(ContactInstant<ConstrainedLanes::Number>& c, 
   const int own_turn = held.is_first ? 3 : 9;
   for (int lane = 0; lane < count; ++lane) {
     const int column = first + lane;
-    const auto d = inputs_.columnOf(jacobians_[k], held, k, column);
+    const auto d = inputs_.columnOf(jacobians_[k], held, k, column, flows_[k]);
     if (!d) continue;
     const auto at = static_cast<std::size_t>(lane);
     gap.rate[at] = (*d)[0];
     setRates(c.n, Vec3(sign * d->segment<3>(1)), at);
     setRates(point, Vec3(d->tail<3>()), at);
-    Eigen::Matrix<double, 7, 1> bent = *inputs_.columnOf(jacobian_rates_[k], held, k, column);
+    Eigen::Matrix<double, 7, 1> bent = *inputs_.columnOf(jacobian_rates_[k], held, k, column, flows_[k]);
     if (column >= 3 && column < 6)
       bent += jacobians_[k].pose.middleCols<3>(own_turn) * now_.body.omega.cross(Vec3(Vec3::Unit(column - 3)));
+    if (flows_[k].moves && column >= ConstrainedInputs::kSizes) bent += bentBySupport(k, column);
     for (int j = 0; j < 3; ++j) {
       c.normal_rate[j].rate[at] += sign * bent[1 + j];
       c.point_rate[j].rate[at] += bent[4 + j];

@@ -46,7 +46,8 @@ void requireSlips(const ConstrainedPath& path) {
 // As x' = v, only the slopes F of theta, v and L are unknowns: with the tangent D of the start, A the integrals from it to the
 // nodes, and G the slopes by x, by the others and by the other inputs,
 //   F = G_x (D_x + h node D_v + h^2 A^2 F_v) + G_others (D + h A F) + G_inputs.
-void through(const ConstrainedPath& path, const ConstrainedInputs& inputs, const ConstrainedStretch& stretch, MatrixXd& D) {
+void through(const ConstrainedPath& path, const ConstrainedInputs& inputs, const ConstrainedStretch& stretch,
+             const ConstrainedStartDerivative& start, MatrixXd& D) {
   constexpr int n = kStretchNodes;
   const Gauss& gauss = Gauss::get();
   const Gauss::Square twice = gauss.integral * gauss.integral;
@@ -54,10 +55,12 @@ void through(const ConstrainedPath& path, const ConstrainedInputs& inputs, const
   const Eigen::Index columns = inputs.count;
   MatrixXd M = MatrixXd::Identity(kUnknown * n, kUnknown * n), F(kUnknown * n, columns), moved = D;
   for (int i = 0; i < n; ++i) {
-    const MatrixXd G = slopeRates(path, inputs, stretch.step->stateAt(stretch.from + gauss.node[i] * h), stretch.straight).bottomRows<kUnknown>();
+    const double t = stretch.from + gauss.node[i] * h;
+    const MatrixXd G = slopeRates(path, inputs, stretch.step->stateAt(t), t, stretch.straight).bottomRows<kUnknown>();
     moved.topRows<3>() = D.topRows<3>() + gauss.node[i] * h * D.middleRows<3>(6);
     F.middleRows<kUnknown>(kUnknown * i) = G.leftCols<12>() * moved;
     F.middleRows<kUnknown>(kUnknown * i).rightCols(columns - 12) += G.rightCols(columns - 12);
+    if (start.shift.size() > 0) F.middleRows<kUnknown>(kUnknown * i) += (G * start.shift) * start.time;
     for (int j = 0; j < n; ++j) {
       auto block = M.block<kUnknown, kUnknown>(kUnknown * i, kUnknown * j);
       block -= h * gauss.integral(i, j) * G.middleCols<kUnknown>(3);
@@ -85,9 +88,12 @@ MatrixXd constrainedSensitivity(const ConstrainedPath& path, const ConstrainedIn
   requireSlips(path);
   ConstrainedStartDerivative start = constrainedStartDerivative(path, inputs);
   MatrixXd& D = start.state;
-  for (const ConstrainedStretch& stretch : stretchesUntil(path, t)) through(path, inputs, stretch, D);
-  if (const auto turns = slipTurns(path, inputs, t))
-    D.bottomRows<6>() -= turns->change * turns->takingBack(ConstrainedInputs::chained(turns->across, D));
+  for (const ConstrainedStretch& stretch : stretchesUntil(path, t)) through(path, inputs, stretch, start, D);
+  if (const auto turns = slipTurns(path, inputs, t)) {
+    MatrixXd across = ConstrainedInputs::chained(turns->across, D);
+    start.addShift(turns->across, across);
+    D.bottomRows<6>() -= turns->change * turns->takingBack(across);
+  }
   if (!start.time.isZero(0)) D -= asVector(path.rateAt(t)) * start.time;
   return D;
 }
@@ -96,17 +102,17 @@ ConstrainedRow guardRow(const ConstrainedPath& path, const ConstrainedInputs& in
   const auto k = static_cast<std::size_t>(guard.contact);
   const ConstrainedInstant end = path.instantAt(t);
   if (guard.cause == TransitionCause::leaves)  // the border there: a circle's has gone round with the contact
-    for (ConstrainedGuard& now : guardsOf(path.scene(), path.contacts(), path.stateAt(t)))
+    for (ConstrainedGuard& now : guardsOf(path.scene(), path.contacts(), path.stateAt(t), t))
       if (now.isSame(guard)) guard = std::move(now);
   std::vector<Vec3> slip = followSlips(path);
   for (std::size_t i = 0; i < slip.size(); ++i)
     if (path.contacts()[i].mode == ContactMode::slides && hasNoDirection(path, i, t, end)) slip[i] = end.contacts[i].slip;
   if (guard.cause == TransitionCause::sticks) slip[k] = end.contacts[k].slip;
   ConstrainedRow row(inputs.count);
-  ConstrainedRates rates(path.scene(), path.contacts(), inputs, path.stateAt(t), slip);
+  ConstrainedRates rates(path.scene(), path.contacts(), inputs, path.stateAt(t), t, slip);
   const ConstrainedForceRates of_forces(rates.now(), path.redundant());
   rates.each([&](const ConstrainedLanes& lanes, int first, int count) {
-    const ConstrainedLanes::Number value = guardRateOf(guard, path, inputs, of_forces, lanes, first, count);
+    const ConstrainedLanes::Number value = guardRateOf(guard, path, inputs, of_forces, lanes, first, count, rates);
     for (int lane = 0; lane < count; ++lane) row[first + lane] = value.rate[static_cast<std::size_t>(lane)];
   });
   return row;

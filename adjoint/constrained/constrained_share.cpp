@@ -25,6 +25,8 @@ constexpr double kSamePoint = 1e-9;
 // The interior point goes on until the room is known to this share of the forces, or no better.
 constexpr double kRoomKnown = 1e-15;
 constexpr int kRoomSteps = 60, kNoBetter = 4;
+// Forces across the normal that are a smaller share of all forces have no direction.
+constexpr double kAtApex = 1e-6;
 
 Vec3 acrossNormal(const Vec3& n, const Vec3& f) { return f - n.dot(f) * n; }
 
@@ -79,6 +81,29 @@ Eigen::MatrixXd forcesWithoutEffect(const std::vector<ShareSide>& sides) {
   return SymmetricEigen<double>(left).vectors.rightCols(3 * n - rank);
 }
 
+// The interior point knows the room to rounding, the duals z of the cones s to its root. Where a cone is at its border they are along its
+// reflection, z = lambda (1, -s_t/|s_t|), which leaves D^T z = b with one unknown each.
+Eigen::VectorXd polishedDuals(const Eigen::MatrixXd& D, const Eigen::VectorXd& b, const Eigen::VectorXd& s, const Eigen::VectorXd& z) {
+  const Index cones = z.size() / 3;
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(z.size(), z.size());
+  Index unknowns = 0;
+  for (Index k = 0; k < cones; ++k) {
+    const Eigen::Vector3d of = s.segment<3>(3 * k);
+    const double across = of.tail<2>().norm();
+    if (!(z[3 * k] > of[0] - across)) continue;  // inside: 0
+    if (across > kAtApex) {
+      basis.block<3, 1>(3 * k, unknowns++) << 1, -of.tail<2>() / across;
+    } else {
+      for (Index i = 0; i < 3; ++i) basis(3 * k + i, unknowns++) = 1;
+    }
+  }
+  basis.conservativeResize(Eigen::NoChange, unknowns);
+  if (unknowns == 0) return z;
+  const Eigen::VectorXd polished = basis * CompleteOrthogonal(D.transpose() * basis, kSameRoom).solve(b);
+  const auto left = [&](const Eigen::VectorXd& of) { return (D.transpose() * of - b).norm(); };
+  return polished.allFinite() && left(polished) <= left(z) ? polished : z;
+}
+
 // The most s such that all cones keep that room: a program of second order in s and the forces without effect.
 ConstrainedShare shareOfMany(const std::vector<ShareSide>& sides) {
   const auto n = static_cast<Index>(sides.size());
@@ -100,7 +125,7 @@ ConstrainedShare shareOfMany(const std::vector<ShareSide>& sides) {
     a.segment<3>(3 * k) = row * side.force / size;
   }
   b[free] = -1;
-  InteriorPoint point(D, a, b);
+  InteriorPoint point(D, a, b, std::vector<int>(sides.size(), 3));
   InteriorPoint best = point;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0, since = 0; i < kRoomSteps && since < kNoBetter; ++i) {
@@ -116,10 +141,11 @@ ConstrainedShare shareOfMany(const std::vector<ShareSide>& sides) {
     if (since == 0) least = off, best = point;
   }
   ConstrainedShare share;
+  const Eigen::VectorXd duals = polishedDuals(D, b, D * best.unknowns() + a, best.duals());
   const Eigen::VectorXd push = size * (without * best.unknowns().head(free));
   for (Index k = 0; k < n; ++k) {
     share.push.push_back(push.segment<3>(3 * k));
-    const Vec3 z = best.duals().segment<3>(3 * k);
+    const Vec3 z = duals.segment<3>(3 * k);
     share.weight.push_back(z[0]);
     share.turn.push_back(rows[static_cast<std::size_t>(k)].bottomRows<2>().transpose() * z.tail<2>());
   }

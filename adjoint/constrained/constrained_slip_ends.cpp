@@ -35,11 +35,11 @@ std::vector<std::size_t> contactsThatStop(const ConstrainedPath& path, const Con
 MatrixXd acrossSlips(const ConstrainedPath& path, const ConstrainedInputs& inputs, double t, const ConstrainedInstant& now,
                      const std::vector<std::size_t>& contacts) {
   MatrixXd rows(contacts.size(), inputs.count);
-  ConstrainedRates rates(path.scene(), path.contacts(), inputs, path.stateAt(t), followSlips(path));
+  ConstrainedRates rates(path.scene(), path.contacts(), inputs, path.stateAt(t), t, followSlips(path));
   rates.each([&](const ConstrainedLanes& lanes, int first, int count) {
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const Vec3 across = acrossSlip(now, contacts[i]);
-      const auto u = lanes.body.velocityAt(lanes.contacts[contacts[i]].r);
+      const auto u = lanes.body.relativeVelocity(lanes.contacts[contacts[i]]);
       for (int lane = 0; lane < count; ++lane)
         rows(static_cast<Eigen::Index>(i), first + lane) = across.dot(ratesOf(u, static_cast<std::size_t>(lane)));
     }

@@ -58,34 +58,50 @@ Rows constrainedRows(const ConstrainedInstant& now, const std::vector<Persistent
   return C;
 }
 
+Eigen::VectorXd supportSpeeds(const ConstrainedInstant& now, const std::vector<PersistentContact>& contacts) {
+  Eigen::VectorXd speeds(3 * static_cast<Eigen::Index>(contacts.size()));
+  Eigen::Index at = 0;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const ContactInstant<double>& c = now.contacts[k];
+    if (contacts[k].stands()) {
+      speeds.segment<3>(at) = c.support_velocity;
+      at += 3;
+    } else {
+      speeds[at++] = c.n.dot(c.support_velocity);
+    }
+  }
+  speeds.conservativeResize(at);
+  return speeds;
+}
+
 Eigen::Matrix<double, 6, Eigen::Dynamic> undoing(const ConstrainedInstant& now, const Rows& C) {
   Eigen::Matrix<double, 6, Eigen::Dynamic> moved;
   const Eigen::MatrixXd inverse = inverseMass(now, C, moved);
   return moved * inverse;
 }
 
-State constrainedStart(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, State state, int rounds,
+State constrainedStart(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, State state, double t, int rounds,
                 std::vector<Vec3>* stopped) {
   const std::vector<Vec3> none(contacts.size(), Vec3::Zero());
   if (stopped) *stopped = none;
   for (int round = 0; round < rounds; ++round) {
-    const ConstrainedInstant now = instantOf(scene, contacts, state, none);
+    const ConstrainedInstant now = instantOf(scene, contacts, state, t, none);
     Eigen::VectorXd gaps(contacts.size());
     const Pose own{state.x, scene.model->shapeToWorld(state.q.toRotationMatrix())};
     for (std::size_t k = 0; k < contacts.size(); ++k)
-      gaps[static_cast<Eigen::Index>(k)] = scene.contact(contacts[k], k, own, Vec3::Zero(), Vec3::Zero()).at.gap;
+      gaps[static_cast<Eigen::Index>(k)] = scene.contact(contacts[k], k, own, {}, t).at.gap;
     const Eigen::Matrix<double, 6, 1> move = -undoing(now, gapRows(now)) * gaps;
     const Vec3 turn = move.tail<3>();
     state.x += move.head<3>();
     if (turn.norm() > 0) state.q = (expSO3(turn) * state.q).normalized();
   }
   for (int round = 0; round < rounds; ++round) {
-    const ConstrainedInstant now = instantOf(scene, contacts, state, none);
+    const ConstrainedInstant now = instantOf(scene, contacts, state, t, none);
     const Rows C = constrainedRows(now, contacts);
     Eigen::Matrix<double, 6, 1> velocity;
     velocity << now.body.v, now.body.omega;
     Eigen::Matrix<double, 6, Eigen::Dynamic> moved;
-    const Eigen::VectorXd impulse = -(inverseMass(now, C, moved) * (C * velocity));
+    const Eigen::VectorXd impulse = -(inverseMass(now, C, moved) * (C * velocity - supportSpeeds(now, contacts)));
     const Eigen::Matrix<double, 6, 1> change = moved * impulse;
     if (stopped) addImpulses(now, contacts, impulse, *stopped);
     const Mat3 R = state.q.toRotationMatrix();

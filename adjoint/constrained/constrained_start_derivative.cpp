@@ -74,7 +74,7 @@ StartRates startRates(const ConstrainedPath& path, const ConstrainedInputs& inpu
       for (std::size_t k = 0; k < contacts.size(); ++k) {
         out.gaps(static_cast<Eigen::Index>(k), first + lane) = lanes.gap[k].rate[at];
         const auto& c = lanes.contacts[k];
-        const auto u = lanes.body.velocityAt(c.r);
+        const auto u = lanes.body.relativeVelocity(c);
         if (contacts[k].stands()) {
           out.speeds.block<3, 1>(row, first + lane) = ratesOf(u, at);
           row += 3;
@@ -104,23 +104,30 @@ MatrixXd startAsGiven(const ConstrainedInputs& inputs) {
 }  // namespace
 
 ConstrainedStartDerivative constrainedStartDerivative(const ConstrainedPath& path, const ConstrainedInputs& inputs) {
-  ConstrainedRates rates(path.scene(), path.contacts(), inputs, path.stateAt(path.start()), followSlips(path), path.beginsFlat());
+  ConstrainedRates rates(path.scene(), path.contacts(), inputs, path.stateAt(path.start()), path.start(), followSlips(path),
+                         path.beginsFlat());
   const ConstrainedInstant& now = rates.now();
   const Eigen::Index rows = constrainedRows(now, path.contacts()).rows();
   const StartRates at_start = startRates(path, inputs, rates, rows);
-  ConstrainedStartDerivative out{startAsGiven(inputs), ConstrainedRow::Zero(inputs.count)};
+  ConstrainedStartDerivative out{startAsGiven(inputs), ConstrainedRow::Zero(inputs.count), {}};
   MatrixXd& D = out.state;
   D.topRows<6>() -= undoing(now, gapRows(now)) * at_start.gaps;
   const Eigen::VectorXd slip_rate = rateOfBeginningSlips(path, rows);
   if (slip_rate.norm() > kNoStart * path.scene().gravity.norm())
     out.time = -(slip_rate.transpose() * ConstrainedInputs::chained(at_start.speeds, D)) / slip_rate.squaredNorm();
-  if (!out.time.isZero(0)) D += asVector(path.rateAt(path.start())) * out.time;
-  undoSpeeds(path, now, ConstrainedInputs::chained(at_start.speeds, D), D);
+  if (!out.time.isZero(0)) {
+    D += asVector(path.rateAt(path.start())) * out.time;
+    if (path.scene().isCarried()) out.shift = timeShift(path.scene(), inputs, path.start());
+  }
+  MatrixXd speeds = ConstrainedInputs::chained(at_start.speeds, D);
+  out.addShift(at_start.speeds, speeds);
+  undoSpeeds(path, now, speeds, D);
   return out;
 }
 
 MatrixXd constrainedStop(const ConstrainedPath& path, const ConstrainedInputs& inputs) {
-  ConstrainedRates rates(path.scene(), path.contacts(), inputs, path.stateAt(path.start()), followSlips(path), path.beginsFlat());
+  ConstrainedRates rates(path.scene(), path.contacts(), inputs, path.stateAt(path.start()), path.start(), followSlips(path),
+                         path.beginsFlat());
   const ConstrainedInstant& now = rates.now();
   const StartRates at_start = startRates(path, inputs, rates, constrainedRows(now, path.contacts()).rows());
   MatrixXd D = startAsGiven(inputs);

@@ -15,6 +15,12 @@ using ConstrainedRow = Eigen::RowVectorXd;  ///< by the columns of ConstrainedIn
 struct ConstrainedStartDerivative {
   Eigen::MatrixXd state;
   ConstrainedRow time;
+  Eigen::VectorXd shift;  ///< of the other inputs with that time; empty: none
+
+  /// Of rows by the inputs, what that makes of them.
+  void addShift(const Eigen::MatrixXd& rows, Eigen::MatrixXd& sum) const {
+    if (shift.size() > 0) sum += (rows * shift) * time;
+  }
 };
 ConstrainedStartDerivative constrainedStartDerivative(const ConstrainedPath& path, const ConstrainedInputs& inputs);
 

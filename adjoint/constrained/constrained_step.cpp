@@ -99,7 +99,7 @@ std::optional<ConstrainedStep> ConstrainedStepper::tried(const Start& start, dou
   ConstrainedStep step;
   step.start = start.time, step.length = length, step.from = start.state, step.frozen = start.frozen;
   step.slip.resize(contacts_.size());
-  placeInstant(scene_, contacts_, start.state, start.state.q.toRotationMatrix(), nodes.start);
+  placeInstant(scene_, contacts_, start.state, start.state.q.toRotationMatrix(), start.time, nodes.start);
   nodes.turning.clear();
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     step.slip[k].fill(start.slip[k]);
@@ -141,9 +141,10 @@ void ConstrainedStepper::extrapolate(ConstrainedStep& step, const ConstrainedSte
   const Quat back = step.from.q.conjugate();
   for (int i = 0; i < kNodes; ++i) {
     const auto ii = static_cast<std::size_t>(i);
-    const State s = like.stateAt(step.start + Gauss::get().node[i] * step.length);
+    const double t = step.start + Gauss::get().node[i] * step.length;
+    const State s = like.stateAt(t);
     ConstrainedInstant& now = nodes.at[ii];
-    placeInstant(scene_, contacts_, s, s.q.toRotationMatrix(), now);
+    placeInstant(scene_, contacts_, s, s.q.toRotationMatrix(), t, now);
     for (const std::size_t k : nodes.turning) {
       const Vec3 u = now.slipAt(k);
       if (u.dot(step.slip[k][ii]) > 0.5 * u.norm()) step.slip[k][ii] = u.normalized();
@@ -174,7 +175,7 @@ ConstrainedSlopes ConstrainedStepper::evaluate(ConstrainedStep& step, const Cons
     const auto column = static_cast<Eigen::Index>(i);
     const State s = ConstrainedStep::moved(step.from, change.col(column));
     ConstrainedInstant& now = nodes.at[i];
-    placeInstant(scene_, contacts_, s, s.q.toRotationMatrix(), now);
+    placeInstant(scene_, contacts_, s, s.q.toRotationMatrix(), step.start + Gauss::get().node[column] * step.length, now);
     slopesAt(i, step, s, change.block<3, 1>(3, column), F);
     for (std::size_t a = 0; a < nodes.turning.size(); ++a) {
       step.slip[nodes.turning[a]][i] = now.contacts[nodes.turning[a]].slip;

@@ -68,9 +68,10 @@ std::vector<ConstrainedStretch> stretchesUntil(const ConstrainedPath& path, doub
   return out;
 }
 
-Eigen::MatrixXd slopeRates(const ConstrainedPath& path, const ConstrainedInputs& inputs, const State& state, const std::vector<Vec3>& slip) {
+Eigen::MatrixXd slopeRates(const ConstrainedPath& path, const ConstrainedInputs& inputs, const State& state, double t,
+                           const std::vector<Vec3>& slip) {
   Eigen::MatrixXd G(12, inputs.count);
-  ConstrainedRates rates(path.scene(), path.contacts(), inputs, state, slip);
+  ConstrainedRates rates(path.scene(), path.contacts(), inputs, state, t, slip);
   const ConstrainedForceRates of_forces(rates.now(), path.redundant());
   rates.each([&](const ConstrainedLanes& lanes, int first, int count) {
     const ForceLanes forces = of_forces.in(lanes);

@@ -24,9 +24,10 @@ struct ConstrainedStretch {
 /// Those from the start of a path to a time, in order.
 std::vector<ConstrainedStretch> stretchesUntil(const ConstrainedPath& path, double t);
 
-/// Derivatives of the slopes (x, theta, v, L) of the tangent where the state is `state`, by the tangent of the state there
+/// Derivatives of the slopes (x, theta, v, L) of the tangent where the state is `state` at time t, by the tangent of the state there
 /// and the other inputs: 12 rows. `slip`: of each contact the direction that its slip keeps.
-Eigen::MatrixXd slopeRates(const ConstrainedPath& path, const ConstrainedInputs& inputs, const State& state, const std::vector<Vec3>& slip);
+Eigen::MatrixXd slopeRates(const ConstrainedPath& path, const ConstrainedInputs& inputs, const State& state, double t,
+                           const std::vector<Vec3>& slip);
 
 /// Across the slip of a contact, along its face.
 inline Vec3 acrossSlip(const ConstrainedInstant& now, std::size_t k) { return now.contacts[k].n.cross(now.contacts[k].slip); }

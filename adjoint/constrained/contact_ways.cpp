@@ -25,7 +25,7 @@ constexpr double kSameWayPoint = 1e-9;
 ContactWays::ContactWays(const ConstrainedScene& scene, const std::vector<PersistentContact>& candidates, const State& state, double no_slip)
     : candidates_(candidates) {
   std::vector<Vec3> none(candidates.size(), Vec3::Zero());
-  now_ = instantOf(scene, candidates, state, none);
+  now_ = instantOf(scene, candidates, state, scene.time, none);
   pull_ = scene.speed * scene.speed / scene.length;
   force_ = pull_ * scene.model->mass;
   for (std::size_t k = 0; k < candidates.size(); ++k) {

@@ -18,12 +18,12 @@ constexpr double kTiltsFast = 1e-9;
 
 std::optional<FlatRim> FlatRim::of(const ConstrainedScene& scene, const PersistentContact& c, std::size_t k, const Pose& own, const Vec3& omega) {
   const auto* rims = dynamic_cast<const RimGeometry*>(scene.geometry.get());
-  if (!rims) return std::nullopt;
+  if (!rims || scene.with[k].moves()) return std::nullopt;
   const int a = c.is_first ? scene.body : c.with, b = c.is_first ? c.with : scene.body;
   const std::optional<RimOnFace> rim = rims->rimOnFace(a, b, c.features);
   if (!rim || !(rim->features == c.features) || rim->of_first != c.is_first) return std::nullopt;
   FlatRim out;
-  out.rim_ = *rim, out.face_ = scene.with[k];
+  out.rim_ = *rim, out.face_ = scene.with[k].pose;
   const Vec3 d = own.R * rim->axis, N = out.face_.R * rim->normal;
   const double heights = 2 * rim->radius * RimOnFace::tilt(d, N).norm();
   if (!(heights <= kHeightsOfFlat * std::max(1.0, own.x.cwiseAbs().maxCoeff()))) return std::nullopt;

@@ -10,7 +10,7 @@ using LaneNumber = ConstrainedLanes::Number;
 
 // weight . (R^T (p - x) - border) + normal_weight . R^T n, see FeatureLimit.
 LaneNumber borderRate(const ConstrainedGuard& guard, const ConstrainedPath& path, const ConstrainedInputs& inputs, const ConstrainedLanes& lanes,
-                  int first, int count) {
+                  int first, int count, const ConstrainedRates& rates) {
   const FeatureLimit& limit = guard.border;
   const auto k = static_cast<std::size_t>(guard.contact);
   const PersistentContact& held = path.contacts()[k];
@@ -18,15 +18,15 @@ LaneNumber borderRate(const ConstrainedGuard& guard, const ConstrainedPath& path
   const ConstrainedInputs::Partner& partner = inputs.partners[inputs.partner_of[k]];
   V3<LaneNumber> x = lanes.x;
   M3<LaneNumber> R = lanes.R;
-  if (!own) x = path.scene().with[k].x.cast<LaneNumber>(), R = path.scene().with[k].R.cast<LaneNumber>();
+  if (!own) {
+    const auto support = inputs.supportOf<LaneNumber>(path.scene().with[k], k, first, count, rates.flow(k));
+    x = support.x, R = support.R;
+  }
   V3<LaneNumber> border = limit.border.cast<LaneNumber>(), normal_weight = limit.normal_weight.cast<LaneNumber>();
   const int sizes = own ? ConstrainedInputs::kSizes : partner.sizes, size_count = own ? inputs.size_count : partner.size_count;
   for (int lane = 0; lane < count; ++lane) {
     const int column = first + lane;
     const auto at = static_cast<std::size_t>(lane);
-    if (!own && column >= partner.pose && column < partner.pose + 3) x[column - partner.pose].rate[at] = 1;
-    if (!own && column >= partner.pose + 3 && column < partner.pose + 6)
-      setRates(R, Mat3(skew(Vec3(Vec3::Unit(column - partner.pose - 3))) * path.scene().with[k].R), at);
     if (column < sizes || column >= sizes + size_count) continue;
     if (limit.border_rates.cols() > 0) setRates(border, Vec3(limit.border_rates.col(column - sizes)), at);
     if (limit.normal_rates.cols() > 0) setRates(normal_weight, Vec3(limit.normal_rates.col(column - sizes)), at);
@@ -91,11 +91,12 @@ LaneNumber sharedRate(const ConstrainedShare& share, const std::vector<ContactIn
 }  // namespace
 
 LaneNumber guardRateOf(const ConstrainedGuard& guard, const ConstrainedPath& path, const ConstrainedInputs& inputs,
-                   const ConstrainedForceRates& force_rates, const ConstrainedLanes& lanes, int first, int count) {
+                   const ConstrainedForceRates& force_rates, const ConstrainedLanes& lanes, int first, int count,
+                   const ConstrainedRates& rates) {
   const auto k = static_cast<std::size_t>(guard.contact);
   const ContactInstant<LaneNumber>& c = lanes.contacts[k];
-  if (guard.cause == TransitionCause::leaves) return borderRate(guard, path, inputs, lanes, first, count);
-  if (guard.cause == TransitionCause::sticks) return c.slip.dot(lanes.body.velocityAt(c.r));
+  if (guard.cause == TransitionCause::leaves) return borderRate(guard, path, inputs, lanes, first, count, rates);
+  if (guard.cause == TransitionCause::sticks) return c.slip.dot(lanes.body.relativeVelocity(c));
   const ForceLanes forces = force_rates.in(lanes);
   const bool slips = guard.cause == TransitionCause::slips;
   if (c.mode == ContactMode::sticks)  // a force that comes to 0 leaves no room either

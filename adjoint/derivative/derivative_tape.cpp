@@ -197,11 +197,12 @@ void doubtStart(Reliability& reliability, int body, const std::string& why) {
 
 }  // namespace
 
-// Paths in contact know no ground that moves: a kinematic one that stands still has no derivative by its velocities.
+// On a kinematic body at rest paths are those on fixed ground: they have no derivative by its velocities.
 void Reliability::passStill(const Motion& motion, int body, const Arc& arc) {
   std::vector<int> grounds;
   if (const ConstrainedPath* path = arc.trajectory().constrained()) {
-    for (const PersistentContact& c : path->contacts()) grounds.push_back(c.with);
+    for (std::size_t k = 0; k < path->contacts().size(); ++k)
+      if (!path->scene().with[k].moves()) grounds.push_back(path->contacts()[k].with);
   } else if (arc.closedForm()) {
     grounds.push_back(arc.closedForm()->face);
   }
@@ -209,7 +210,7 @@ void Reliability::passStill(const Motion& motion, int body, const Arc& arc) {
   for (const int with : grounds)
     if (const Body& ground = bodies[static_cast<std::size_t>(with)]; ground.kinematic)
       doubtStart(*this, with, "'" + bodies[static_cast<std::size_t>(body)].name + "' stays in contact with '" + ground.name +
-                                  "', a kinematic body at rest: contact that lasts is not followed on one that moves");
+                                  "', a kinematic body at rest: the derivative with respect to its velocities is not known there");
 }
 
 // Where it came to rest, what varies has moved it. Where it was put there, nothing does but by its own velocity and spin.

@@ -53,7 +53,7 @@ std::optional<RimOfBody> rimOfBody(const Motion& motion, const Event& event, con
   if (!model.moving || model.kinematic || participantOf(event, out.scene.body) < 0 || participantOf(event, held.with) >= 0) return std::nullopt;
   out.scene.geometry = motion.geometry;
   out.scene.model = motion.modelOf(out.scene.body);
-  out.scene.with = {poseBefore(motion, event, held.with)};
+  out.scene.with = {{.pose = poseBefore(motion, event, held.with)}};
   out.contact = {held};
   out.scene.gravity = model.gravity_factor * motion.scene->gravity;
   out.radius = rim->radius, out.normal = rim->normal;
@@ -70,7 +70,7 @@ bool staysFlat(const Motion& motion, const Event& event, const Contact& of, cons
 }
 
 bool tilts(const RimOfBody& of, const State& before) {
-  const Vec3 omega = of.scene.model->inverseInertiaWorld(before.q.toRotationMatrix()) * before.L, N = of.scene.with[0].R * of.normal;
+  const Vec3 omega = of.scene.model->inverseInertiaWorld(before.q.toRotationMatrix()) * before.L, N = of.scene.with[0].pose.R * of.normal;
   return (omega - N.dot(omega) * N).norm() * of.radius > kTiltRate * std::sqrt(of.scene.gravity.norm() * of.radius);
 }
 
@@ -80,7 +80,7 @@ std::optional<State> turnsTo(const RimOfBody& of, const State& before, const Pos
   for (const double sign : {1.0, -1.0}) {
     turns.L = sign * before.L;
     const Vec3 omega = of.scene.model->inverseInertiaWorld(turns.q.toRotationMatrix()) * turns.L;
-    const Vec3 lowest = of.scene.contact(of.contact[0], 0, own, turns.v, omega).at.point;
+    const Vec3 lowest = of.scene.contact(of.contact[0], 0, own, {turns.v, omega}, 0).at.point;
     if ((point - lowest).norm() <= kSamePoint * of.radius) return turns;
   }
   return std::nullopt;
@@ -103,7 +103,7 @@ bool placeFlatRim(const Motion& motion, const Event& event, const Contact& c, Co
   const std::optional<State> turns = turnsTo(*of, before, shapePose(motion, of->scene.body, before), c.at.point);
   if (!turns) return false;
   const auto columns = std::make_shared<const ConstrainedColumns>(motion, of->scene, of->contact, before);
-  ConstrainedRates rates(of->scene, of->contact, columns->inputs(), *turns, {Vec3::Zero()}, true);
+  ConstrainedRates rates(of->scene, of->contact, columns->inputs(), *turns, 0, {Vec3::Zero()}, true);
   auto rows = std::make_shared<Columns>(columnsOf(rates, columns->inputs().count, is_first ? 1 : -1));
   if (turns->L != before.L) rows->middleCols<3>(9) *= -1;
   auto rim = std::make_shared<RimPart>();

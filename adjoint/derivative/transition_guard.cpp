@@ -76,17 +76,17 @@ std::shared_ptr<const PathGuard> tippingGuard(const Motion& motion, const Event&
     held.with = held.is_first ? c.b : c.a;
     held.features = c.features, held.friction = path.inputs.friction, held.mode = ContactMode::slides;
     contacts.push_back(held);
-    scene.with.push_back(poseBefore(motion, event, held.with));
+    scene.with.push_back({.pose = poseBefore(motion, event, held.with)});
     slip.push_back(Vec3::Zero());
   }
   const auto columns = std::make_shared<const ConstrainedColumns>(motion, scene, contacts, p.before);
-  ConstrainedRates rates(scene, contacts, columns->inputs(), p.before, slip);
+  ConstrainedRates rates(scene, contacts, columns->inputs(), p.before, 0, slip);
   ConstrainedRow row(columns->inputs().count);
   rates.each([&](const ConstrainedLanes& lanes, int first, int count) {
     const ConstrainedLanes::Number value = tippingRate(lanes);
     for (int lane = 0; lane < count; ++lane) row[first + lane] = value.rate[static_cast<std::size_t>(lane)];
   });
-  return guardWith(columns, row);
+  return guardWith(columns, row, Eigen::VectorXd::Zero(row.size()));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace carom {
 
 using namespace adjoint_detail;
 
-const char* nameOf(ArcKind kind) { return nameIn({"flight", "rest", "slide", "roll", "pivot"}, kind); }
+const char* nameOf(ArcKind kind) { return nameIn({"flight", "rest", "slide", "roll", "pivot", "ride"}, kind); }
 const char* nameOf(Tier tier) { return nameIn({"none", "spherical", "symmetric", "triaxial"}, tier); }
 const char* nameOf(TransitionCause cause) {
   return nameIn({"none", "slip_ends", "leaves", "tips", "lifts", "slips", "sticks"}, cause);

@@ -17,11 +17,11 @@ struct ContactPath;
 struct TrajectoryBounds;
 }
 
-/// Motion of a body on an arc: free flight, or persistent contact with fixed bodies: rest, slide (at one contact at
-/// least), roll, or pivot (rotation about contacts that do not move: tipping, rocking); see docs/equations.md section
-/// 11.
-enum class ArcKind { flight, rest, slide, roll, pivot };
-/// "flight", "rest", "slide", "roll" or "pivot".
+/// Motion of a body on an arc: free flight, or persistent contact with fixed or kinematic bodies: rest, slide (at one
+/// contact at least), roll, pivot (rotation about contacts that do not move: tipping, rocking), or ride (at rest on a
+/// support that moves, or whose surface does); see docs/equations.md section 11.
+enum class ArcKind { flight, rest, slide, roll, pivot, ride };
+/// "flight", "rest", "slide", "roll", "pivot" or "ride".
 const char* nameOf(ArcKind kind);
 
 /// Cause of a transition: the slip ends, a contact reaches the boundary of its feature, or the force at a corner of a

@@ -24,6 +24,7 @@ class TrajectoryLinearization {
 /// The row of the guard of a trajectory by the state at its end, and by all else.
 struct PathGuard {
   StateDerivative by_state;
+  double by_time = 0;  ///< beyond that by the state: of supports that move
   std::function<double(const SceneTangent&, const BodyModelDerivative&)> tangent;
   std::function<void(double sigma, SceneGradient&, BodyModelDerivative&)> pullback;
 };

@@ -48,7 +48,7 @@ struct EventGuard {
   S rate(const ImpactPass<S>& impact, const std::vector<StateDerivativeOf<S>>& rates) const {
     S d = 0;
     if constexpr (std::is_same_v<S, double>) {
-      if (by_path) return by_path->by_state.dot(rates[0]);
+      if (by_path) return by_path->by_state.dot(rates[0]) + by_path->by_time;
     }
     if (by_slip) {  // A is that of a ball, or nothing turns
       const auto& c = impact.inputs().contacts[0];

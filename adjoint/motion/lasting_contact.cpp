@@ -61,6 +61,8 @@ const char* verbOf(EventKind event, ArcKind before, ArcKind after) {
       return again ? "rolls on" : "rolls";
     case ArcKind::pivot:
       return again ? "pivots on" : "pivots";
+    case ArcKind::ride:
+      return again ? "rides on" : "rides";
   }
   return "";
 }
@@ -94,6 +96,7 @@ std::string describeChanges(const Motion& motion, int event) {
   std::string text;
   if (of.time == motion.end && motion.status != MotionStatus::complete) return text;  // what comes next is not known
   for (const Participant& p : of.participants) {
+    if (p.stays) continue;
     const std::vector<Arc>& arcs = motion.world_lines[index(p.body)].arcs;
     const std::string verb = verbOf(of.kind, arcs[index(p.arc)].kind(), arcs[index(p.next())].kind());
     if (!verb.empty()) text += (text.empty() ? "" : ", ") + motion.scene->bodies[index(p.body)].name + " " + verb;

@@ -18,10 +18,20 @@ FreeAcceleration freeAcceleration(const BodyModel& model, const State& state, co
   return {model.gravity_factor * gravity, -(A * (A * state.L).cross(state.L))};
 }
 
-ContactSide freeSide(const Motion& motion, int body, const State& state) {
+ContactSide freeSide(const Motion& motion, int body, const State& state, double time) {
   const BodyModel& model = (*motion.models)[asIndex(body)];
   if (!model.moving) return {state, std::nullopt};
+  if (model.kinematic) return givenSide(motion, body, time);
   return {state, freeAcceleration(model, state, motion.scene->gravity)};
+}
+
+// The angular momentum of a kinematic body is its angular velocity (BodyModel).
+ContactSide givenSide(const Motion& motion, int body, double time) {
+  const Arc& arc = motion.world_lines[asIndex(body)].arcs.back();
+  if (arc.stays()) return {arc.startState(), std::nullopt};
+  const State state = arc.stateAt(time);
+  const StateDerivative rate = arc.rateAt(time, state);
+  return {state, FreeAcceleration{rate.v, rate.L}};
 }
 
 namespace {
@@ -111,7 +121,7 @@ std::optional<double> settlesAt(const Motion& motion, const Event& event, const 
   const auto sideOf = [&](int body) {
     const Participant* p = event.find(body);
     return freeSide(motion, body, p ? after[static_cast<std::size_t>(p - event.participants.data())]
-                                    : motion.world_lines[asIndex(body)].arcs.back().startState());
+                                    : motion.world_lines[asIndex(body)].arcs.back().startState(), event.time);
   };
   const double alpha = gapAcceleration(motion, c, sideOf(c.a), sideOf(c.b));
   if (!(alpha < 0 && e < 1)) return std::nullopt;

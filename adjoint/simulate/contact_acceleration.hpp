@@ -19,11 +19,13 @@ FreeAcceleration freeAcceleration(const BodyModel& model, const State& state, co
 
 /// A body at a contact: its state, and its accelerations unless it stays.
 struct ContactSide {
-  const State& state;
+  State state;
   std::optional<FreeAcceleration> acceleration;
 };
 /// Of a body that nothing touches.
-ContactSide freeSide(const Motion& motion, int body, const State& state);
+ContactSide freeSide(const Motion& motion, int body, const State& state, double time);
+/// Of a body that no contact moves: where it is at a time, and how it moves.
+ContactSide givenSide(const Motion& motion, int body, double time);
 /// Of the rim that is at a contact with a face, or for which a mark stands there.
 std::optional<RimOnFace> rimOf(const Motion& motion, const Contact& contact);
 /// Whether a contact is that of a rim which lies flat on a face at these poses: it has no lowest point of its own.

@@ -24,8 +24,8 @@ constexpr double kTips = 1e-12;
 
 class Chooser {
  public:
-  Chooser(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& closed)
-      : motion_(motion), index_(body), state_(state), closed_(closed), body_(motion, body, state, closed) {
+  Chooser(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& closed, double time)
+      : motion_(motion), index_(body), state_(state), closed_(closed), body_(motion, body, state, closed, time) {
     no_slip_ = least_slip_ = leastSlip(body_.reach());
   }
 
@@ -57,6 +57,7 @@ class Chooser {
 
   ContactChoice choose(const ModeHint& hint) {
     if (body_.pressed().empty()) return {};
+    if (body_.isDriven()) return held(hint);
     if (standsStill(state_.v, body_.spin())) return rests();
     ContactChoice closed_form;
     if (body_.isOneFace() && frictionPressesNoOther()) {
@@ -111,7 +112,7 @@ class Chooser {
     return choice;
   }
   void begin(ContactChoice& choice) const {
-    choice.start = constrainedStart(choice.scene, choice.modes.contacts, state_, 2, &choice.stopped);
+    choice.start = constrainedStart(choice.scene, choice.modes.contacts, state_, choice.scene.time, 2, &choice.stopped);
     choice.path->inputs.x = choice.start.x, choice.path->inputs.v = choice.start.v, choice.path->inputs.L = choice.start.L;
   }
 
@@ -140,7 +141,7 @@ class Chooser {
     ContactChoice choice = onConstrainedPath();
     choice.modes = std::move(modes);
     begin(choice);
-    return comesToRest(choice) ? rests() : choice;
+    return !body_.isDriven() && comesToRest(choice) ? rests() : choice;
   }
 
   // Whether contacts that came to hold it leave the body no motion.
@@ -253,7 +254,7 @@ class Chooser {
   double least_slip_ = 0;  // of what can glide: that ends by itself
 };
 
-// Of a scene that is replayed: what stood still may move there, and nothing is carried along.
+// Of a scene that is replayed: what stood still may move there, and closed forms are not carried along.
 void requireStill(const Motion& motion, int body, const std::vector<const Contact*>& contacts) {
   const std::vector<Body>& bodies = motion.scene->bodies;
   for (const Contact* c : contacts) {
@@ -267,24 +268,25 @@ void requireStill(const Motion& motion, int body, const std::vector<const Contac
 
 double leastSlip(double gravity, double reach) { return kNoSlip * std::sqrt(gravity * reach); }
 
-ContactChoice restPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts, bool loose) {
-  return Chooser(motion, body, state, {}).restOn(contacts, loose);
+ContactChoice restPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts, bool loose,
+                         double time) {
+  return Chooser(motion, body, state, {}, time).restOn(contacts, loose);
 }
 
 FreeAcceleration pressedAcceleration(const Motion& motion, int body, const State& state,
-                                     const std::vector<const Contact*>& closed) {
-  return Chooser(motion, body, state, closed).acceleration();
+                                     const std::vector<const Contact*>& closed, double time) {
+  return Chooser(motion, body, state, closed, time).acceleration();
 }
 
 ContactChoice contactPathOf(const Motion& motion, int body, const State& state,
-                            const std::vector<const Contact*>& contacts, PathForm form) {
+                            const std::vector<const Contact*>& contacts, PathForm form, double time) {
   requireStill(motion, body, contacts);
-  return Chooser(motion, body, state, {}).follow(form, contacts);
+  return Chooser(motion, body, state, {}, time).follow(form, contacts);
 }
 
 ContactChoice chooseContactPath(const Motion& motion, int body, const State& state,
-                                const std::vector<const Contact*>& closed, const ModeHint& hint) {
-  Chooser chooser(motion, body, state, closed);
+                                const std::vector<const Contact*>& closed, double time, const ModeHint& hint) {
+  Chooser chooser(motion, body, state, closed, time);
   chooser.ignoreSlips(hint.no_slip);
   if (hint.cause != TransitionCause::sticks && hint.cause != TransitionCause::slip_ends) return chooser.choose(hint);
   Chooser ends = chooser;
@@ -294,16 +296,15 @@ ContactChoice chooseContactPath(const Motion& motion, int body, const State& sta
 }
 
 ContactChoice tiltingPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& marks,
-                            const std::vector<const Contact*>& contacts, const ModeHint& hint) {
-  Chooser chooser(motion, body, state, marks);
+                            const std::vector<const Contact*>& contacts, double time, const ModeHint& hint) {
+  Chooser chooser(motion, body, state, marks, time);
   chooser.ignoreSlips(hint.no_slip);
   return chooser.tilts(contacts, hint);
 }
 
 ContactChoice constrainedPathOf(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& contacts,
-                         const std::vector<PersistentContact>& like) {
-  requireStill(motion, body, contacts);
-  return Chooser(motion, body, state, contacts).constrainedAs(contacts, like);
+                         const std::vector<PersistentContact>& like, double time) {
+  return Chooser(motion, body, state, contacts, time).constrainedAs(contacts, like);
 }
 
 }  // namespace carom::adjoint_detail

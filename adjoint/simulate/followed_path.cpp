@@ -23,10 +23,10 @@ PathArc constrainedAlong(const Motion& motion, const ConstrainedPath& like, Cons
     if (found == contacts.end()) throw NotComputable("a persistent contact is missing");
     held.push_back(&*found);
   }
-  const ContactChoice choice = constrainedPathOf(motion, body, start, held, like.contacts());
+  const ContactChoice choice = constrainedPathOf(motion, body, start, held, like.contacts(), time);
   if (!choice.path) throw NotComputable(choice.beyond);
   std::vector<ConstrainedGuard> guards;
-  for (ConstrainedGuard& guard : guardsOf(choice.scene, choice.modes.contacts, choice.start)) {
+  for (ConstrainedGuard& guard : guardsOf(choice.scene, choice.modes.contacts, choice.start, time)) {
     const bool is_same = like.ending() && guard.isSame(like.ending()->guard);
     if (ends == ConstrainedEnds::all || (ends == ConstrainedEnds::same && is_same)) guards.push_back(std::move(guard));
   }
@@ -42,7 +42,7 @@ std::optional<double> FollowedPath::leaves(const Motion& motion, const Arc& arc,
     if (transition.cause == was.cause && transition.contact == contact && transition.limit == was.border)
       return transition.elapsed;
     const ContactChoice choice =
-        contactPathOf(motion, arc.closedForm()->body, arc.startState(), pointersTo(contacts), arc.closedForm()->form);
+        contactPathOf(motion, arc.closedForm()->body, arc.startState(), pointersTo(contacts), arc.closedForm()->form, arc.start());
     return whenContactLeaves(motion, choice, contact, was.border, motion.duration - arc.start());
   }
   return std::nullopt;

@@ -32,7 +32,7 @@ PathTransition constrainedTransition(const Arc& arc, double start) {
 PathArc makePathArc(const Motion& motion, const ContactChoice& choice, double time) {
   const int body = choice.path->body;
   if (choice.path->form == PathForm::held)
-    return makeConstrainedArc(motion, choice, time, guardsOf(choice.scene, choice.modes.contacts, choice.start));
+    return makeConstrainedArc(motion, choice, time, guardsOf(choice.scene, choice.modes.contacts, choice.start, time));
   const double left = motion.duration - time;
   choice.path->start = time;
   const PathTransition transition = firstTransition(motion, choice, left);

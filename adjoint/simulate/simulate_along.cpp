@@ -158,12 +158,11 @@ class Follower {
     }
     if (!elapsed) return fail(was, was.cause == TransitionCause::leaves ? "the contact stays on its feature"
                                                                         : "the contact mode does not change");
-    if (arc.start() + *elapsed > motion_.duration) {
-      markLate(was);
-      return Outcome::late;
-    }
+    if (arc.start() + *elapsed > motion_.duration) return markLate(was), Outcome::late;
     place(arc.start() + *elapsed);
-    commit(was, {event_.participants[0].before});
+    std::vector<State> before;
+    for (const Participant& p : event_.participants) before.push_back(p.before);
+    commit(was, std::move(before));
     return Outcome::found;
   }
 
@@ -263,18 +262,23 @@ class Follower {
         held.contacts.back().pair = builder_.pairOf(c.a, c.b);
       }
     if (std::ranges::any_of(held.contacts, [&](const Contact& c) { return liesOnAnother(c); }))
-      return makePathArc(motion_, restPathOf(motion_, p.body, start, pointersTo(held.contacts), like.closedForm()->loose), event_.time).arc;
+      return makePathArc(motion_, restPathOf(motion_, p.body, start, pointersTo(held.contacts), like.closedForm()->loose, event_.time),
+                         event_.time).arc;
     if (std::ranges::any_of(held.contacts, [](const Contact& c) { return !c.held; }))
       closeGaps(motion_, p.body, start, held.contacts);
     PathArc made = makePathArc(
-        motion_, contactPathOf(motion_, p.body, start, pointersTo(held.contacts), like.closedForm()->form), event_.time);
+        motion_, contactPathOf(motion_, p.body, start, pointersTo(held.contacts), like.closedForm()->form, event_.time), event_.time);
     held.transition = made.transition;
     return std::move(made.arc);
   }
 
   // A path on which the contacts of the event hold a body, and those that held it before.
   Arc constrainedAfter(const Participant& p, const State& after) {
-    const auto now = [&](int body) { return arcOf(body).kinematicsOf(body == p.body ? after : arcOf(body).startState()); };
+    const auto now = [&](int body) {
+      const Arc& arc = arcOf(body);
+      if (body != p.body && (*motion_.models)[index(body)].kinematic) return arc.kinematicsAt(event_.time);
+      return arc.kinematicsOf(body == p.body ? after : arc.startState());
+    };
     FollowedPath& held = held_[index(p.body)];
     std::vector<Contact> contacts = held.contactsAt(event_, p.body);
     for (Contact& c : contacts) {

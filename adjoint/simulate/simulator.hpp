@@ -84,7 +84,7 @@ class Simulator {
     double horizon = 0;                  // without an impact: searched up to here
     std::vector<PredictedEvent> of_instant;  // further ones within an instant of the first
   };
-  // How a body in lasting contact goes on: where it is held, all by bodies that stand still, and until when.
+  // How a body in lasting contact goes on: where it is held, by bodies that stand still or move as they are given to, and until when.
   struct BodyContactState {
     std::vector<Contact> held;
     double transition = EventQueue::kNever;
@@ -116,7 +116,7 @@ class Simulator {
     std::vector<Contact> pressing;  // between bodies that do not
     std::vector<int> woken;         // bodies that rested on others, or under them, and do not stay
     std::string beyond;             // why the motion ends: persistent contact that is not modelled
-    std::optional<State> past_end;  // of a transition: the body a little later in the modes that end
+    std::optional<std::pair<State, double>> past_end;  // of a transition: the body a little later in the modes that end
   };
   // A body just before the event that is being worked out.
   struct Snapshot {
@@ -219,6 +219,7 @@ class Simulator {
 
   // simulator_ground.cpp: what stands still is one ground
   bool onSameFace(const BodyContactState& from, const Contact& contact) const;
+  void addCarriers();
   void dropDoubles(std::size_t first = 0, bool keep_earlier = false);
   bool isDouble(const Contact& c, const Contact& d) const;
   bool isLeaving(const Contact& contact);

@@ -60,16 +60,17 @@ const State& Simulator::stateAfter(int body) const {
   return draft_.after[static_cast<std::size_t>(p - draft_.event.participants.data())];
 }
 
-// d^2(gap)/dt^2 after the event, while contacts with fixed bodies that part without speed stay closed.
+// d^2(gap)/dt^2 after the event, while contacts with fixed and kinematic bodies that part without speed stay closed.
 double Simulator::accelerationOf(const Contact& contact) const {
   const auto sideOf = [&](int body) -> ContactSide {
     if (!(*motion_.models)[index(body)].moving) return {stateAfter(body), std::nullopt};
+    if (!isMoved(body)) return givenSide(motion_, body, draft_.event.time);
     if (const auto acceleration = componentAcceleration(body)) return {stateAfter(body), acceleration};
     std::vector<const Contact*> closed;
     for (const Contact& c : draft_.event.contacts)
-      if (c.lasts && (c.a == body || c.b == body) && isFixed(c.a == body ? c.b : c.a))
+      if (c.lasts && (c.a == body || c.b == body) && !isMoved(c.a == body ? c.b : c.a))
         closed.push_back(&c);
-    return {stateAfter(body), pressedAcceleration(motion_, body, stateAfter(body), closed)};
+    return {stateAfter(body), pressedAcceleration(motion_, body, stateAfter(body), closed, draft_.event.time)};
   };
   return gapAcceleration(motion_, contact, sideOf(contact.a), sideOf(contact.b));
 }
@@ -144,7 +145,8 @@ bool Simulator::isCounted(const Contact& c, const State& a, const State& b) cons
   for (const auto& [body, s] : {std::pair{c.a, &a}, std::pair{c.b, &b}})
     if (isMoved(body)) reach = std::max(reach, (c.at.point - s->x).norm());
   const double height = kUncounted * reach;
-  const double alpha = gapAcceleration(motion_, c, freeSide(motion_, c.a, a), freeSide(motion_, c.b, b));
+  const double time = draft_.event.time;
+  const double alpha = gapAcceleration(motion_, c, freeSide(motion_, c.a, a, time), freeSide(motion_, c.b, b, time));
   return !(alpha < 0 && c.approach * c.approach < -2 * height * alpha);
 }
 

@@ -229,7 +229,7 @@ void Simulator::holdAtRest(RestingComponent& rest) {
 void Simulator::rest(std::size_t participant) {
   RestingMember& member = *draft_.resting[participant];
   const int body = bodies_[participant];
-  const ContactChoice choice = restPathOf(motion_, body, member.state, pointersTo(member.held), !member.opposed);
+  const ContactChoice choice = restPathOf(motion_, body, member.state, pointersTo(member.held), !member.opposed, draft_.event.time);
   PathArc made = makePathArc(motion_, choice, draft_.event.time);
   draft_.after[participant] = choice.start;
   draft_.contact_state[participant].held = std::move(made.held);

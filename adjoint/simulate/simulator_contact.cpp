@@ -151,13 +151,13 @@ bool Simulator::changesTooOften(int body) const {
   return arcs[arcs.size() - kMostChanges].start() >= draft_.event.time - kSameInstant * instant;
 }
 
-// The contacts with what is fixed that keep a body. `ends`: it presses on one that moves, so that the motion ends here.
+// The contacts with what is fixed or kinematic that keep a body. `ends`: it presses on one that moves, so that the motion ends here.
 std::vector<Contact> Simulator::closedContacts(int body, bool& ends) {
   std::vector<Contact> closed;
   if (!contactsLast() || !isMoved(body)) return closed;
   for (const Contact& c : draft_.event.contacts) {
     if (!c.lasts || (c.a != body && c.b != body)) continue;
-    if (!isFixed(c.a == body ? c.b : c.a)) {
+    if (isMoved(c.a == body ? c.b : c.a)) {
       if (presses(c)) ends = true, endBeyond(c, "one of them would move, and motion on bodies that can move is not modelled yet");
       continue;
     }
@@ -174,12 +174,14 @@ void Simulator::chooseArc(std::size_t participant) {
   std::vector<Contact> closed = closedContacts(body, ends);
   State& after = draft_.after[participant];
   ContactChoice choice;
-  const std::vector<Contact> marks = tiltFrom(closed, body, after);
+  const bool driven =
+      std::ranges::any_of(closed, [&](const Contact& c) { return supportOf(motion_, c.a == body ? c.b : c.a, event.time).drives(); });
+  const std::vector<Contact> marks = driven ? std::vector<Contact>() : tiltFrom(closed, body, after);
   if (!marks.empty()) {
-    choice = tiltingPathOf(motion_, body, after, pointersTo(marks), pointersTo(closed), hintOf(closed));
+    choice = tiltingPathOf(motion_, body, after, pointersTo(marks), pointersTo(closed), event.time, hintOf(closed));
   } else if (!closed.empty()) {
-    choice = chooseContactPath(motion_, body, after, pointersTo(closed), hintOf(closed));
-    if (choice.path && choice.path->form == PathForm::held)
+    choice = chooseContactPath(motion_, body, after, pointersTo(closed), event.time, hintOf(closed));
+    if (!driven && choice.path && choice.path->form == PathForm::held)
       if (std::optional<ContactChoice> tips = beginTilt(closed, body, after, choice)) choice = *std::move(tips);
   }
   if (choice.path && choice.path->form != PathForm::held && std::ranges::any_of(choice.contacts, [](const Contact* c) { return !c->held; })) {
@@ -187,7 +189,7 @@ void Simulator::chooseArc(std::size_t participant) {
     for (const Contact* c : choice.contacts) last.push_back(*c);
     closed = std::move(last);
     closeGaps(motion_, body, after, closed);
-    choice = contactPathOf(motion_, body, after, pointersTo(closed), choice.path->form);
+    choice = contactPathOf(motion_, body, after, pointersTo(closed), choice.path->form, event.time);
   }
   // where the motion ends here, the velocities are those of the law: an integrated path would stop what is left of slips
   if (ends && choice.path && choice.path->form == PathForm::held) return fly(participant);
@@ -310,6 +312,7 @@ void Simulator::resolveTransition(int body) {
   event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1, 0,
                                 snapshots_[0].state});
   draft_.after = {snapshots_[0].state};
+  addCarriers();
   chooseArcs();
   std::erase_if(event.contacts, [](const Contact& c) { return !c.held && !c.lasts; });
   predictDraft();

@@ -253,7 +253,7 @@ std::optional<ContactChoice> Simulator::beginTilt(std::vector<Contact>& closed, 
     if (!lowest) return std::nullopt;
     at = others;
     at.push_back(lowest->at);
-    choice = tiltingPathOf(motion_, body, tilted, pointersTo(marks), pointersTo(at), hintOf(at));
+    choice = tiltingPathOf(motion_, body, tilted, pointersTo(marks), pointersTo(at), draft_.event.time, hintOf(at));
     if (!choice.path || choice.path->form != PathForm::held || !choice.beyond.empty()) return std::nullopt;
     return n.dot(about.normalized().cross(choice.modes.spin_rate));
   };
@@ -262,7 +262,7 @@ std::optional<ContactChoice> Simulator::beginTilt(std::vector<Contact>& closed, 
   if (!miss || !(std::abs(*miss) <= kTipsAt * most)) return std::nullopt;
   if (!(choice.modes.spin_rate.dot(expSO3(Vec3(*turn * n)) * alpha) > least * alpha.norm())) return std::nullopt;
   closed = std::move(at), after = tilted;
-  return tiltingPathOf(motion_, body, after, pointersTo(marks), pointersTo(closed), hintOf(closed));
+  return tiltingPathOf(motion_, body, after, pointersTo(marks), pointersTo(closed), draft_.event.time, hintOf(closed));
 }
 
 // Of a rim that all but lies flat: where its tilt and what is left of tilting have no more energy than a fall from the lowest bounce,

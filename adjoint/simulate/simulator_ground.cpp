@@ -5,7 +5,7 @@
 #include "adjoint/motion/body_geometry.h"
 #include "adjoint/simulate/simulator.hpp"
 
-// What stands still is one ground: contacts with fixed bodies that lie flush.
+// What stands still is one ground: contacts with fixed bodies that lie flush. And supports that move.
 
 namespace carom::adjoint_detail {
 namespace {
@@ -97,6 +97,19 @@ void Simulator::dropDoubles(std::size_t first, bool keep_earlier) {
       if (swap) contacts[i] = contacts[j];
       contacts.erase(contacts.begin() + static_cast<std::ptrdiff_t>(j));
       if (swap) j = i + 1;
+    }
+}
+
+// Supports that move take part in what changes contacts with them, and stay as they are.
+void Simulator::addCarriers() {
+  Event& event = draft_.event;
+  for (const Contact& c : event.contacts)
+    for (const int body : {c.a, c.b}) {
+      if (isMoved(body) || isFixed(body) || std::ranges::find(bodies_, body) != bodies_.end()) continue;
+      const State& now = snapshots_[snapshot(body, event.time)].state;
+      bodies_.push_back(body);
+      event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1, 0, now, true});
+      if (event.kind == EventKind::transition) draft_.after.push_back(now);  // there is no law that gives it
     }
 }
 

@@ -89,14 +89,14 @@ bool Simulator::placeAtStart() {
     }
     if (!placeBodies(bodies, std::move(contacts))) return false;
   }
-  std::vector<std::vector<const PlacedContact*>> on_fixed(scene_.bodies.size());
+  std::vector<std::vector<const PlacedContact*>> on_given(scene_.bodies.size());
   for (const PlacedContact& p : placed)
-    if (isFixed(p.a) != isFixed(p.b) && !overlapOf(p.a, p.b)) on_fixed[index(isFixed(p.a) ? p.b : p.a)].push_back(&p);
+    if (isMoved(p.a) != isMoved(p.b) && !overlapOf(p.a, p.b)) on_given[index(isMoved(p.a) ? p.a : p.b)].push_back(&p);
   for (int body = 0; body < static_cast<int>(scene_.bodies.size()); ++body) {
     if (!isMoved(body) || reused_.has(body) || is_placed[index(body)]) continue;
     beginDraft(0);
     std::vector<Contact> contacts;
-    for (const PlacedContact* p : on_fixed[index(body)])
+    for (const PlacedContact* p : on_given[index(body)])
       for (const FeaturePair& f : p->features) {
         Contact c = makeContact(0, p->a, p->b, f);
         const double alpha = accelerationOf(c);
@@ -132,6 +132,7 @@ void Simulator::solvePlaced(const std::vector<int>& bodies) {
   for (int body : bodies_)
     event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1, 0,
                                   snapshots_[snapshot(body, 0)].state, false});
+  addCarriers();
   try {
     solveImpact(event, *motion_.models, draft_.after);
   } catch (const NotComputable& error) {

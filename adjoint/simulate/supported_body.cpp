@@ -34,12 +34,13 @@ constexpr double kNoTilting = 1e-9;
 
 }  // namespace
 
-SupportedBody::SupportedBody(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& closed)
+SupportedBody::SupportedBody(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& closed, double time)
     : motion_(motion),
       body_(body),
       model_((*motion.models)[asIndex(body)]),
       state_(state),
       gravity_(model_.gravity_factor * motion.scene->gravity),
+      time_(time),
       R_(state.q.toRotationMatrix()),
       omega_(model_.inverseInertiaWorld(R_) * state.L) {
   for (const Contact* c : closed) reach_ = std::max(reach_, armOf(*c).norm());
@@ -92,8 +93,7 @@ std::vector<const Contact*> SupportedBody::wholeFaces(const std::vector<const Co
 }
 
 double SupportedBody::freeGapAcceleration(const Contact& c) const {
-  const ContactSide own{state_, acceleration_},
-      other{motion_.world_lines[asIndex(otherOf(c))].arcs.back().startState(), std::nullopt};
+  const ContactSide own{state_, acceleration_}, other = givenSide(motion_, otherOf(c), time_);
   return c.a == body_ ? gapAcceleration(motion_, c, own, other) : gapAcceleration(motion_, c, other, own);
 }
 
@@ -132,6 +132,10 @@ bool SupportedBody::liesOnItsSide() const {
 }
 
 Vec3 SupportedBody::axis() const { return model_.has_offset ? Vec3(model_.R_BG * Vec3::UnitZ()) : Vec3(Vec3::UnitZ()); }
+
+bool SupportedBody::isDriven() const {
+  return std::ranges::any_of(pressed_, [&](const Contact* c) { return supportOf(motion_, otherOf(*c), time_).drives(); });
+}
 
 bool SupportedBody::isOneFace() const {
   const Contact& first = *pressed_.front();
@@ -239,8 +243,8 @@ ConstrainedScene SupportedBody::constrainedScene(const std::vector<const Contact
   scene.body = body_;
   scene.gravity = gravity_;
   for (const Contact* c : contacts)
-    scene.with.push_back(
-        shapePose(motion_, otherOf(*c), motion_.world_lines[asIndex(otherOf(*c))].arcs.back().startState()));
+    scene.with.push_back(supportOf(motion_, otherOf(*c), time_));
+  scene.time = time_;
   scene.length = reach_ > 0 ? reach_ : kindOf(shape()).boundingRadius(shape()) + model_.center.norm();
   scene.size = scene.length + state_.x.lpNorm<Eigen::Infinity>();
   scene.speed = std::sqrt(gravity_.norm() * scene.length + state_.v.squaredNorm()) + omega_.norm() * scene.length;

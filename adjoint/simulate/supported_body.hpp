@@ -11,11 +11,11 @@
 
 namespace carom::adjoint_detail {
 
-/// A moving body and its contacts with fixed bodies that part without speed: which of them press, and what follows from
-/// where they are.
+/// A moving body at a time and its contacts with fixed and kinematic bodies that part without speed: which of them press, and
+/// what follows from where they are.
 class SupportedBody {
  public:
-  SupportedBody(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& closed);
+  SupportedBody(const Motion& motion, int body, const State& state, const std::vector<const Contact*>& closed, double time);
 
   const Vec3& gravity() const { return gravity_; }
   const Vec3& spin() const { return omega_; }
@@ -47,6 +47,8 @@ class SupportedBody {
   /// The same, that turns about its axis alone.
   bool isAxle() const;
   Vec3 axis() const;  ///< of a cylinder or capsule, in the axes of its state
+  /// What presses moves, or its surface does.
+  bool isDriven() const;
   /// What presses is one face.
   bool isOneFace() const;
   /// Forces within the cones of friction undo gravity.
@@ -82,6 +84,7 @@ class SupportedBody {
   const BodyModel& model_;
   const State& state_;
   Vec3 gravity_;
+  double time_;
   Mat3 R_;
   Vec3 omega_;
   double reach_ = 0;

@@ -90,12 +90,13 @@ void drawRests(const LayerPage& page) {
 
 void drawContacts(const LayerPage& page) {
   if (page.level == kContactLevels - 1) {
-    if (page.index == 0) page.legend.leaveOut("where bodies roll, slide, pivot and rest");
+    if (page.index == 0) page.legend.leaveOut("where bodies roll, slide, pivot, ride and rest");
     return;
   }
   drawStrokes(page, {ArcKind::roll, Mark::roll, "rolls", "none"});
   drawStrokes(page, {ArcKind::slide, Mark::slide, "slides", "4 3"});
   drawStrokes(page, {ArcKind::pivot, Mark::pivot, "pivots", "1.5 3"});
+  drawStrokes(page, {ArcKind::ride, Mark::ride, "rides", "9 3"});
   drawRests(page);
 }
 

@@ -69,7 +69,7 @@ void drawGhosts(const LayerPage& page);
 inline constexpr int kGhostLevels = 6;
 /// When the ghosts are, with all detail.
 std::vector<double> ghostTimes(const Picture& picture);
-/// Where bodies that have lines roll, slide, pivot and rest: below their lines.
+/// Where bodies that have lines roll, slide, pivot, ride and rest: below their lines.
 void drawContacts(const LayerPage& page);
 inline constexpr int kContactLevels = 2;
 void drawPaths(const LayerPage& page);

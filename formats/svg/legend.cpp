@@ -31,7 +31,7 @@ struct MarkRow {
   const char* dashes = nullptr;
 };
 // In the order of Mark.
-constexpr std::array<MarkRow, 22> kMarks = {{
+constexpr std::array<MarkRow, 23> kMarks = {{
     {.name = "path", .swatch = Swatch::line},
     {.name = "crowd-path", .swatch = Swatch::line},
     {.name = "crowd-shade", .swatch = Swatch::scale},
@@ -41,6 +41,7 @@ constexpr std::array<MarkRow, 22> kMarks = {{
     {.name = "roll", .swatch = Swatch::line},
     {.name = "slide", .swatch = Swatch::line},
     {.name = "pivot", .swatch = Swatch::line},
+    {.name = "ride", .swatch = Swatch::line},
     {.name = "rest", .swatch = Swatch::box, .fill = "#ffffff", .stroke_width = "1.6"},
     {.name = "ghost", .swatch = Swatch::box, .fill = kOwn, .fill_opacity = "0.25"},
     {.name = "crowd-ghost", .swatch = Swatch::circle, .radius = 6, .fill = "#ffffff", .stroke_width = "0.8"},

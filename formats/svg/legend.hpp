@@ -20,6 +20,7 @@ enum class Mark {
   roll,
   slide,
   pivot,
+  ride,
   rest,
   ghost,
   crowd_ghost,

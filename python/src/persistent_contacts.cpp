@@ -54,10 +54,10 @@ std::string reprOfContact(const PyPersistentContact& self) {
 
 void bindPersistentContacts(nb::module_& module, nb::class_<PyMotion>& motion) {
   using Persistent = PyPersistentContact;
-  nb::class_<Persistent>(module, "PersistentContact", "A body rests, slides, rolls or pivots on another one.")
+  nb::class_<Persistent>(module, "PersistentContact", "A body rests, slides, rolls, pivots or rides on another one.")
       .def_ro("body", &Persistent::body, "Name of the body on a path in contact.")
       .def_ro("with_", &Persistent::with, "Name of what it is in contact with.")
-      .def_ro("kind", &Persistent::kind, "'rest', 'slide', 'roll' or 'pivot'.")
+      .def_ro("kind", &Persistent::kind, "'rest', 'slide', 'roll', 'pivot' or 'ride'.")
       .def_ro("features", &Persistent::features, "Where the two touch, in the order of bodies in the scene.")
       .def_ro("from_", &Persistent::from, "s")
       .def_ro("to", &Persistent::to, "s; the end of the motion if it continues.")

@@ -63,11 +63,11 @@ PathArc constrainedInstead(const Slide& slide) {
   }
   const std::vector<const Contact*> closed = pointersTo(lasting);
   const State& start = slide.arc().startState();
-  const ContactChoice candidates = constrainedPathOf(m, slide.body, start, closed, std::vector<PersistentContact>(closed.size()));
+  const ContactChoice candidates = constrainedPathOf(m, slide.body, start, closed, std::vector<PersistentContact>(closed.size()), slide.arc().start());
   const ConstrainedModes modes = chooseModes(candidates.scene, candidates.modes.contacts, start, {}, 1e-9);
   std::vector<const Contact*> holding;  // without corners that would have to pull
   for (const std::size_t k : modes.held) holding.push_back(closed[k]);
-  return makePathArc(m, constrainedPathOf(m, slide.body, start, holding, modes.contacts), slide.arc().start());
+  return makePathArc(m, constrainedPathOf(m, slide.body, start, holding, modes.contacts, slide.arc().start()), slide.arc().start());
 }
 
 constexpr double kSame = 1e-10;

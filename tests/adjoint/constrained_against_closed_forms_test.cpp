@@ -60,11 +60,11 @@ PathArc constrainedInstead(const Motion& m, std::size_t k) {
   const std::vector<const Contact*> closed = pointersTo(lasting);
   const State& start = line.arcs[k].startState();
   const std::vector<PersistentContact> any(closed.size());
-  const ContactChoice candidates = constrainedPathOf(m, 0, start, closed, any);
+  const ContactChoice candidates = constrainedPathOf(m, 0, start, closed, any, line.arcs[k].start());
   const ConstrainedModes modes = chooseModes(candidates.scene, candidates.modes.contacts, start, {}, 1e-9);
   EXPECT_EQ(modes.unresolved, "");
   EXPECT_EQ(modes.held.size(), closed.size());
-  return makePathArc(m, constrainedPathOf(m, 0, start, closed, modes.contacts), line.arcs[k].start());
+  return makePathArc(m, constrainedPathOf(m, 0, start, closed, modes.contacts, line.arcs[k].start()), line.arcs[k].start());
 }
 
 void checkArcs(const Motion& m, std::size_t arcs) {

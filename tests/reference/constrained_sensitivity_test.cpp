@@ -77,7 +77,7 @@ Numbers nudged(Numbers n, const ConstrainedPath& path, const ConstrainedInputs& 
     for (ConstrainedCorner& c : n.corners) c.at[side] += (c.at[side] > 0 ? h : Real(-h)) / 2;
   } else if (column < floor.sizes) {
     const int part = column - floor.pose;
-    const RVec about(path.scene().with[0].x);
+    const RVec about(path.scene().with[0].pose.x);
     for (ConstrainedCorner& c : n.corners) {
       const Real rest = c.offset - dot(c.normal, about);
       if (part < 3) c.offset += h * c.normal[part];

@@ -29,7 +29,7 @@ class Look {
     const auto& scene = path.scene();
     const Pose own{state.x, scene.model->shapeToWorld(state.q.toRotationMatrix())};
     for (std::size_t k = 0; k < path.contacts().size(); ++k) {
-      const double gap = std::abs(scene.contact(path.contacts()[k], k, own, Vec3::Zero(), Vec3::Zero()).at.gap);
+      const double gap = std::abs(scene.contact(path.contacts()[k], k, own, {}, path.start()).at.gap);
       if (!(gap <= found_.worst_gap)) found_.worst_gap = gap;
     }
   }

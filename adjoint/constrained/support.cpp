@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#include "adjoint/constrained/support.hpp"
+
+namespace carom::adjoint_detail {
+
+Support supportOf(const Motion& motion, int body, double t) {
+  const auto b = static_cast<std::size_t>(body);
+  const Arc& arc = motion.world_lines[b].arcs.back();
+  Support support;
+  if (arc.stays() || !(*motion.models)[b].kinematic) {
+    const Kinematics k = arc.kinematicsOf(arc.startState());
+    support.pose = {k.x, k.R};
+    return support;
+  }
+  support.arc = std::make_shared<const Arc>(arc);
+  support.center = (*motion.models)[b].center;
+  support.pose = support.poseAt(t);
+  return support;
+}
+
+}  // namespace carom::adjoint_detail
