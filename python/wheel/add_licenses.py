@@ -2,7 +2,9 @@
 """Puts the licences of all that is inside a repaired wheel into it:  add_licenses.py WHEEL FOLDER
 
 Each library in carom.libs belongs to a Debian package, whose copyright file goes along, and so do those of the headers that
-leave code in the module, and the texts that these files refer to. The wheel is written into FOLDER.
+leave code in the module, and the texts that these files refer to: Debian's, and of what Debian has no text the ones in
+python/wheel/licenses, which are those of the SPDX list (npm package spdx-license-list 6.12.0, trailing blanks removed).
+The wheel is written into FOLDER.
 """
 
 import importlib.metadata
@@ -15,6 +17,7 @@ import tempfile
 # Compiled into the module (NOTICE).
 HEADERS = ["libeigen3-dev", "nlohmann-json3-dev", "libvalijson-dev", "libtinygltf-dev"]
 COMMON = pathlib.Path("/usr/share/common-licenses")
+OTHERS = pathlib.Path(__file__).parent / "licenses"
 
 
 def package_of(library: pathlib.Path) -> str:
@@ -41,7 +44,8 @@ def licenses(libraries: list[pathlib.Path]) -> dict[str, str]:
     texts = {name: (pathlib.Path("/usr/share/doc") / name / "copyright").read_text() for name in packages}
     texts |= texts_of_nanobind()
     common = {name for text in texts.values() for name in re.findall(r"common-licenses/([A-Za-z]+-[0-9.]*[0-9])", text)}
-    return texts | {name: (COMMON / name).read_text() for name in sorted(common)}
+    texts |= {name: (COMMON / name).read_text() for name in sorted(common)}
+    return texts | {file.stem: file.read_text() for file in sorted(OTHERS.glob("*.txt"))}
 
 
 def main() -> None:

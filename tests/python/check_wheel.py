@@ -22,7 +22,24 @@ LICENSES = {  # a phrase that the text of each has
     "coinor-libipopt1v5": "Common Public License", "libmumps-seq-5.5": "CeCILL-C", "libscotch-7.0": "CeCILL-C",
     "libode8": "Russell L. Smith", "libqhull-r8.0": "Barber", "libtbb12": "Apache", "libgfortran5": "GCC Runtime Library",
     "libquadmath0": "GCC Runtime Library", "liblapack3": "University of Tennessee", "libblas3": "University of Tennessee",
-    "NOTICE": "EPL-1.0", "libeigen3-dev": "MPL", "nlohmann-json3-dev": "Niels Lohmann", "nanobind": "Wenzel Jakob", "Apache-2.0": "Apache License",
+    "NOTICE": "EPL-1.0", "libeigen3-dev": "MPL", "nlohmann-json3-dev": "Niels Lohmann", "nanobind": "Wenzel Jakob",
+}
+# Of every licence that NOTICE names, the file that has its text, and how an early and a late sentence of it begin.
+BSD = "Redistributions in binary form must reproduce"
+WARRANTY_BSD = "IN ANY WAY OUT OF THE USE"
+GPL = ("Everyone is permitted to copy and distribute verbatim copies", "END OF TERMS AND CONDITIONS")
+TEXTS = {
+    "EPL-1.0": ("EPL-1.0", "Eclipse Public License - v 1.0", "This Agreement is governed by the laws of the State of New York"),
+    "CeCILL-C": ("CeCILL-C", "CeCILL-C FREE SOFTWARE LICENSE AGREEMENT", "Version 1.0 dated 2006-09-05"),
+    "BSD-3-Clause": ("libblas3", BSD, WARRANTY_BSD), "BSD-2-Clause": ("libvalijson-dev", BSD, WARRANTY_BSD),
+    "GPL-3.0-or-later": ("GPL-3", *GPL), "LGPL-2.0-or-later": ("LGPL-2", *GPL), "LGPL-2.1-or-later": ("LGPL-2.1", *GPL),
+    "GCC Runtime Library Exception 3.1": ("libgfortran5", "GCC RUNTIME LIBRARY EXCEPTION", "Grant of Additional Permission"),
+    "Apache-2.0": ("Apache-2.0", "Apache License Version 2.0", "END OF TERMS AND CONDITIONS"),
+    "MIT": ("nlohmann-json3-dev", "Permission is hereby granted", "DEALINGS IN THE SOFTWARE"),
+    "MPL-2.0": ("libeigen3-dev", "Mozilla Public License Version 2.0", "Incompatible With Secondary Licenses"),
+    "BSL-1.0": ("libvalijson-dev", "Boost Software License - Version 1.0", "DEALINGS IN THE SOFTWARE"),
+    "bzip2": ("libbz2-1.0", "The origin of this software must not be misrepresented", WARRANTY_BSD),
+    "Qhull": ("libqhull-r8.0", "All copyright notices must remain intact", "modified"),
 }
 # Of the system: what every Python has loaded, or the tags of the wheel promise.
 SYSTEM = re.compile(r"/(ld-linux|lib(c|m|dl|rt|util|pthread|gcc_s|stdc\+\+|z|expat|crypto|ssl|uuid|ffi|mvec))"
@@ -50,6 +67,20 @@ for line in sorted({line.split()[-1] for line in open("/proc/self/maps") if ".so
 """
 
 
+def check_texts(files: zipfile.ZipFile, folder: str) -> None:
+    """The text of every licence that NOTICE names for what is shipped is there in full."""
+    table = files.read(f"{folder}/NOTICE").decode().split("Tests of the studio's page", 1)[0]
+    table = table.replace("(EPL-2.0 since 3.13.3)", "")  # of other versions than that in the wheel
+    named = set(re.findall(r"\b(?:[A-Z][A-Za-z]*-[0-9][.0-9]*(?:-Clause|-or-later)?|CeCILL-C|MIT|Zlib|bzip2(?= \()|Qhull(?= \(BSD)|"
+                           r"GCC Runtime Library Exception [.0-9]+)(?![-\w])", table))
+    named.remove("Zlib")  # the system's zlib is used
+    assert named == set(TEXTS), f"in NOTICE or here alone: {sorted(named ^ set(TEXTS))}"
+    for licence, (file, *phrases) in TEXTS.items():
+        text = " ".join(files.read(f"{folder}/{file}.txt").decode().split())
+        for phrase in phrases:
+            assert phrase in text, f"{licence}: expected {phrase!r} in {file}.txt"
+
+
 def main() -> None:
     wheel = pathlib.Path(sys.argv[1]).resolve()
     assert "manylinux" in wheel.name, wheel.name
@@ -62,6 +93,7 @@ def main() -> None:
             text = files.read(metadata.replace("METADATA", f"licenses/{file}")).decode()
             assert phrase in text, f"{name}: expected {phrase!r}"
             assert f"\nLicense-File: {file}\n" in head, name
+        check_texts(files, metadata.replace("METADATA", "licenses"))
         assert re.findall(r"^Requires-Dist: (\w+).*", head, re.MULTILINE) == ["numpy"]
         for name in files.namelist():  # read-only relocations, which an old mold does not give
             if re.fullmatch(r"carom/_\w+[.\w-]*\.so", name):
