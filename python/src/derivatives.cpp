@@ -16,7 +16,7 @@ struct PyMotionTangent {
 
 PyGradient adjointOf(const PyMotion& motion, const SeedsArgument& seeds) {
   const std::vector<StateSeed> resolved = seedsIn(*motion.content, seeds);
-  const nb::gil_scoped_release free;
+  const Computing free;
   Reliability reliability;
   SceneGradient gradient =
       motion.content->withTape([&](DerivativeTape& tape) { return adjoint(tape, resolved, &reliability); });
@@ -25,7 +25,7 @@ PyGradient adjointOf(const PyMotion& motion, const SeedsArgument& seeds) {
 }
 
 PyMotionTangent tangentOf(const PyMotion& motion, const PyTangent& direction) {
-  const nb::gil_scoped_release free;
+  const Computing free;
   return motion.content->withTape([&](DerivativeTape& tape) {
     return PyMotionTangent{motion.content, tangent(tape, direction.values)};
   });
@@ -35,7 +35,7 @@ PyStateRate rateAt(const PyMotionTangent& self, const BodyName& body, std::optio
                    const std::optional<EventName>& before, const std::optional<EventName>& after) {
   const Instant instant = instantIn(*self.content, {t, before, after});
   const int index = bodyOf(*self.content->motion.scene, body);
-  const nb::gil_scoped_release free;
+  const Computing free;
   return self.content->withTape([&](DerivativeTape&) { return PyStateRate{self.tangent.at(index, instant)}; });
 }
 
@@ -45,7 +45,7 @@ double eventTime(const PyMotionTangent& self, const EventName& event) {
 
 PyGradient settlingGradient(const PyMotion& motion, const EventName& event) {
   const int index = eventOf(*motion.content, event);
-  const nb::gil_scoped_release free;
+  const Computing free;
   Reliability reliability;
   SceneGradient gradient =
       motion.content->withTape([&](DerivativeTape& tape) { return settlesAtGradient(tape, index, &reliability); });
@@ -54,7 +54,7 @@ PyGradient settlingGradient(const PyMotion& motion, const EventName& event) {
 
 double settlingRate(const PyMotion& motion, const PyTangent& direction, const EventName& event) {
   const int index = eventOf(*motion.content, event);
-  const nb::gil_scoped_release free;
+  const Computing free;
   return motion.content->withTape([&](DerivativeTape& tape) { return settlesAtRate(tape, direction.values, index); });
 }
 
@@ -77,7 +77,11 @@ void bindRate(nb::module_& module) {
                    "Of the dimensions of its shape; empty: constant.")
       .def_prop_ro("time", [](const PyStateRate& self) { return self.rate.time; }, "Of the instant; 0 at a fixed time.")
       .def_prop_ro("mass", [](const PyStateRate& self) { return self.rate.mass; }, "Of the body's mass.")
-      .def("dot", [](const PyStateRate& self, const PySeed& seed) { return self.rate.dot(seed.weights); },
+      .def("dot",
+           [](const PyStateRate& self, const PySeed& seed) {
+             const PlainArithmetic plain;
+             return self.rate.dot(seed.weights);
+           },
            nb::arg("seed"), "Rate of a functional: the sum of weights times rates.")
       .def("__repr__", [](const PyStateRate& self) {
         std::string text = "<BodyStateRate";

@@ -49,7 +49,7 @@ constexpr std::size_t kStepsOfAPicture = 3'000'000;  // as the command: a few se
 
 /// The motion over that of the scene before, dashed.
 std::string pictureOf(const PyEditResult& self) {
-  const nb::gil_scoped_release free;
+  const Computing free;
   const Motion& after = self.motion.motion();
   SimulateOptions limited;
   limited.step_limit = kStepsOfAPicture;

@@ -7,7 +7,7 @@ namespace {
 
 PyEdit madeEdit(const PyScene& scene, std::optional<double> duration, std::vector<Control> controls,
                 std::vector<Constraint> constraints) {
-  const nb::gil_scoped_release free;
+  const Computing free;
   return {std::make_shared<EditContent>(scene, duration.value_or(scene.document().duration), std::move(controls),
                                         std::move(constraints))};
 }

@@ -4,7 +4,6 @@
 #include "python/src/arrays.hpp"
 #include "python/src/edit.hpp"
 #include "python/src/evaluator_batch.hpp"
-#include "python/src/plain_arithmetic.hpp"
 
 namespace carom::python {
 namespace {
@@ -37,7 +36,7 @@ PyEvaluator evaluatorOf(const nb::object& edit, std::optional<std::size_t> step_
   const auto& content = nb::cast<const PyEdit&>(edit).content;
   const OneAtATime::Use use(content->one, "the edit");
   NlpEvaluator evaluator = [&] {
-    const nb::gil_scoped_release free;
+    const Computing free;
     return step_limit ? content->edit.evaluator(*step_limit) : content->edit.evaluator();
   }();
   return {edit, content->scene, std::move(evaluator)};
@@ -46,10 +45,9 @@ PyEvaluator evaluatorOf(const nb::object& edit, std::optional<std::size_t> step_
 PyPoint pointAt(const nb::object& self, const ArrayLike& x) {
   const auto& of = nb::cast<const PyEvaluator&>(self);
   const Eigen::VectorXd values = columnOf(x, "x");
-  const PlainArithmetic plain;
   Watch watch;
   NlpPoint point = [&] {
-    const nb::gil_scoped_release free;
+    const Computing free;
     return of.evaluator.at(values, watch.stop(), watch.progress());
   }();
   watch.finish();
@@ -58,13 +56,13 @@ PyPoint pointAt(const nb::object& self, const ArrayLike& x) {
 
 PyScene sceneAt(const PyEvaluator& self, const ArrayLike& x) {
   const Eigen::VectorXd values = columnOf(x, "x");
-  const nb::gil_scoped_release free;
+  const Computing free;
   return sceneWith(self.scene, self.evaluator.sceneAt(values));
 }
 
 /// A copy, without what the evaluator keeps.
 PyMotion motionOfPoint(const PyPoint& self) {
-  const nb::gil_scoped_release free;
+  const Computing free;
   const Motion& motion = self.point.motion();
   return motionOf(sceneWith(self.scene, *motion.scene), Motion(motion));
 }
@@ -72,7 +70,7 @@ PyMotion motionOfPoint(const PyPoint& self) {
 Array<-1, -1> hessianOf(const PyPoint& self, double objective_weight, const ArrayLike& row_weights) {
   const Eigen::VectorXd weights = columnOf(row_weights, "row_weights");
   const Eigen::MatrixXd hessian = [&] {
-    const nb::gil_scoped_release free;
+    const Computing free;
     return self.point.hessian(objective_weight, weights);
   }();
   return copied<Array<-1, -1>>(hessian);
@@ -82,7 +80,7 @@ Array<-1> hessianTimes(const PyPoint& self, double objective_weight, const Array
                        const ArrayLike& direction) {
   const Eigen::VectorXd weights = columnOf(row_weights, "row_weights"), along = columnOf(direction, "direction");
   const Eigen::VectorXd product = [&] {
-    const nb::gil_scoped_release free;
+    const Computing free;
     return self.point.hessianTimes(objective_weight, weights, along);
   }();
   return copied<Array<-1>>(product);
@@ -176,27 +174,25 @@ void bindPoint(nb::module_& module) {
                    "What the edit minimises: 1/2 sum (w z)^2, or that of Edit.minimise.")
       .def_prop_ro("signature",
                    [](const PyPoint& self) {
-                     const nb::gil_scoped_release free;
+                     const Computing free;
                      return self.point.signature();
                    },
                    "The impact sequence as far as it counts: derivatives relate points with equal signatures.")
       .def_prop_ro("has_hessian",
                    [](const PyPoint& self) {
-                     const nb::gil_scoped_release free;
+                     const Computing free;
                      return self.point.hasHessian();
                    },
                    "Second derivatives are implemented for this motion and all rows.")
       .def("gradient",
            [](const PyPoint& self) {
-             const nb::gil_scoped_release free;
-             const PlainArithmetic plain;
+             const Computing free;
              return PyNlpGradient{self.scene, self.point.gradient()};
            },
            "Of the objective, by one reverse pass.")
       .def("jacobian",
            [](const PyPoint& self) {
-             const nb::gil_scoped_release free;
-             const PlainArithmetic plain;
+             const Computing free;
              return PyJacobian{self.scene, self.point.jacobian()};
            },
            "Of all rows, by one reverse pass each.")

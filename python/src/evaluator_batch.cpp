@@ -9,7 +9,6 @@
 
 #include "adjoint/base/errors.h"
 #include "python/src/interruptible.hpp"
-#include "python/src/plain_arithmetic.hpp"
 
 namespace carom::python {
 namespace {
@@ -89,8 +88,7 @@ nb::tuple rowsAt(const NlpEvaluator& evaluator, const ArrayLike& x, bool with_ja
   Batch batch(evaluator, points.data(), points.shape(0), with_jacobian);
   Watch watch;
   {
-    const nb::gil_scoped_release free;
-    const PlainArithmetic plain;  // before others begin, who take it over
+    const Computing free;  // before other threads begin, which take over how it computes
     std::vector<std::jthread> others;
     for (std::size_t k = 1; k < std::min(static_cast<std::size_t>(threads), points.shape(0)); ++k)
       others.emplace_back([&] { batch.work(watch, false); });

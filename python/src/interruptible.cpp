@@ -75,7 +75,7 @@ void Watch::look(const SimulateProgress& at) {
 void runInterruptible(std::stop_source& stop, const std::function<void()>& work) {
   std::exception_ptr raised;
   {
-    const nb::gil_scoped_release free;
+    const Computing free;
     Worker worker(work);
     while (!worker.endsWithin(kBetweenLooks)) {
       if (raised) continue;

@@ -8,6 +8,7 @@
 
 #include "adjoint/base/work_count.h"
 #include "python/src/bindings.hpp"
+#include "python/src/computing.hpp"
 
 namespace carom::python {
 

@@ -32,14 +32,14 @@ std::optional<PyEvent> foundImpact(const PyMotion& self, const BodyName& body, i
   const int other = with ? bodyOf(*motion.scene, *with) : -1;
   const int index = bodyOf(*motion.scene, body);
   const std::optional<int> found = [&] {
-    const nb::gil_scoped_release free;
+    const Computing free;
     return motion.findImpact(index, n, other);
   }();
   return found ? std::optional(PyEvent{self.content, *found}) : std::nullopt;
 }
 
 std::string signatureOf(const PyMotion& self, std::optional<std::size_t> count) {
-  const nb::gil_scoped_release free;
+  const Computing free;
   return self.motion().signature(count.value_or(static_cast<std::size_t>(-1)));
 }
 
@@ -54,7 +54,7 @@ void exportTo(const PyMotion& self, const std::filesystem::path& path, const std
   options.gltf.nails = nails;
   options.csv_rate = rate;
   if (before) options.before = &before->motion();
-  const nb::gil_scoped_release free;
+  const Computing free;
   exportMotion(path.string(), self.scene.document(), self.motion(), options);
 }
 
@@ -62,7 +62,7 @@ nb::bytes textIn(const PyMotion& self, const std::string& format, const std::opt
   ExportOptions options;
   if (before) options.before = &before->motion();
   const std::string text = [&] {
-    const nb::gil_scoped_release free;
+    const Computing free;
     return motionText(format, self.scene.document().name, self.scene.document(), self.motion(), options);
   }();
   return nb::bytes(text.data(), text.size());
@@ -70,7 +70,7 @@ nb::bytes textIn(const PyMotion& self, const std::string& format, const std::opt
 
 /// What a notebook shows.
 std::string pictureOf(const PyMotion& self) {
-  const nb::gil_scoped_release free;
+  const Computing free;
   return motionText("svg", self.scene.document().name, self.scene.document(), self.motion());
 }
 
@@ -113,7 +113,7 @@ void bindMotion(nb::module_& module) {
            "The impact sequence as text: bodies, features and modes of the first `count` events. Derivatives relate only "
            "motions with equal signatures.")
       .def("describe_events", [](const PyMotion& self) {
-             const nb::gil_scoped_release free;
+             const Computing free;
              return self.motion().describeEvents();
            },
            "The events as text, without impacts too low to be reported.")

@@ -22,7 +22,7 @@ struct PyOverlap {
 };
 
 std::vector<PyPersistentContact> contactsOfMotion(const PyMotion& self) {
-  const nb::gil_scoped_release free;
+  const Computing free;
   const Motion& motion = self.motion();
   std::vector<PyPersistentContact> all;
   for (const LastingContact& contact : lastingContacts(motion)) {
@@ -36,7 +36,7 @@ std::vector<PyPersistentContact> contactsOfMotion(const PyMotion& self) {
 }
 
 std::vector<PyOverlap> overlapsOf(const PyMotion& self) {
-  const nb::gil_scoped_release free;
+  const Computing free;
   const Motion& motion = self.motion();
   std::vector<PyOverlap> all;
   for (const StartOverlap& overlap : motion.overlaps)

@@ -51,7 +51,7 @@ struct PyReplayed {
 };
 
 PyReplay readReplay(const std::filesystem::path& path) {
-  const nb::gil_scoped_release free;
+  const Computing free;
   JournalDocument document = readJournal(path.string());
   document.folder = std::filesystem::absolute(document.folder.empty() ? "." : document.folder).string();
   return {std::make_shared<ReplayContent>(std::move(document))};
@@ -61,7 +61,7 @@ PyReplay readReplay(const std::filesystem::path& path) {
 template <class Use>
 auto withReplay(const PyReplay& self, Use use) {
   const OneAtATime::Use alone(self.content->one, "the replay");
-  const nb::gil_scoped_release free;
+  const Computing free;
   return use(*self.content);
 }
 

@@ -59,7 +59,7 @@ PyStates sampled(const PyMotion& self, const SampledBodies& bodies, const ArrayL
   std::vector<double> at(given.data(), given.data() + given.size());
   const std::vector<int> indices = bodiesOf(self.scene.scene(), bodies);
   SampledNumbers numbers = [&] {
-    const nb::gil_scoped_release free;
+    const Computing free;
     return sampledNumbers(self.motion(), indices, at);
   }();
   const std::size_t rows = indices.size(), columns = at.size();
@@ -119,7 +119,7 @@ void bindSamples(nb::module_& module, nb::class_<PyMotion>& motion) {
       .def("state_at",
            [](const PyMotion& self, const BodyName& body, double t) {
              const int index = bodyOf(self.scene.scene(), body);
-             const nb::gil_scoped_release free;  // a path in contact is integrated as far as it is read
+             const Computing free;  // a path in contact is integrated as far as it is read
              return PyState(self.motion().stateAt(index, t));
            },
            nb::arg("body"), nb::arg("t"),
@@ -128,7 +128,7 @@ void bindSamples(nb::module_& module, nb::class_<PyMotion>& motion) {
       .def("state_before",
            [](const PyMotion& self, const EventName& event, const BodyName& body) {
              const int at = eventOf(*self.content, event), index = bodyOf(self.scene.scene(), body);
-             const nb::gil_scoped_release free;
+             const Computing free;
              return PyState(self.motion().stateBefore(at, index));
            },
            nb::arg("event"), nb::arg("body"),
@@ -136,7 +136,7 @@ void bindSamples(nb::module_& module, nb::class_<PyMotion>& motion) {
       .def("state_after",
            [](const PyMotion& self, const EventName& event, const BodyName& body) {
              const int at = eventOf(*self.content, event), index = bodyOf(self.scene.scene(), body);
-             const nb::gil_scoped_release free;
+             const Computing free;
              return PyState(self.motion().stateAfter(at, index));
            },
            nb::arg("event"), nb::arg("body"), "State just after an event.")

@@ -51,12 +51,12 @@ using Names = std::vector<std::string>;
 PyScene parsedScene(const nb::object& document, const std::string& name, const std::optional<Path>& folder) {
   const std::string text = nb::cast<std::string>(nb::module_::import_("carom.document").attr("to_text")(document));
   const std::string absolute = folder ? std::filesystem::absolute(*folder).string() : "";
-  const nb::gil_scoped_release free;
+  const Computing free;
   return {std::make_shared<SceneContent>(parseDocument(text, name, absolute), text)};
 }
 
 PyScene readScene(const Path& path) {
-  const nb::gil_scoped_release free;
+  const Computing free;
   Document document = readDocument(path.string());
   document.folder = std::filesystem::absolute(document.folder.empty() ? "." : document.folder).string();  // wherever it is used
   std::ifstream in(path, std::ios::binary);
@@ -64,12 +64,12 @@ PyScene readScene(const Path& path) {
 }
 
 void writeScene(const PyScene& self, const Path& path) {
-  const nb::gil_scoped_release free;
+  const Computing free;
   saveDocument(path.string(), self.document());
 }
 
 std::string textOf(const PyScene& self) {
-  const nb::gil_scoped_release free;
+  const Computing free;
   return self.content->text ? *self.content->text : writeDocument(self.document());
 }
 
@@ -96,13 +96,13 @@ std::string reprOf(const PyScene& self) {
 std::pair<std::string, std::string> stateOf(const PyScene& self) { return {textOf(self), self.document().folder}; }
 
 void restore(PyScene& self, const std::pair<std::string, std::string>& state) {
-  const nb::gil_scoped_release free;
+  const Computing free;
   new (&self) PyScene{std::make_shared<SceneContent>(parseDocument(state.first, "scene", state.second), state.first)};
 }
 
 nb::tuple importedScene(const Path& path) {
   Imported imported = [&] {
-    const nb::gil_scoped_release free;
+    const Computing free;
     return importGltf(path.string());
   }();
   return nb::make_tuple(PyScene{std::make_shared<SceneContent>(std::move(imported.document))}, imported.report);

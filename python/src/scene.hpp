@@ -11,6 +11,7 @@
 #include "formats/base/document.h"
 #include "ode_bridge/ode_contacts.h"
 #include "python/src/bindings.hpp"
+#include "python/src/computing.hpp"
 
 namespace carom::python {
 

@@ -164,7 +164,11 @@ void bindSceneDerivatives(nb::module_& module) {
   bindFields(gradient);
   gradient.def_prop_ro("reliability", [](const PyGradient& self) { return self.reliability; }, nb::rv_policy::move,
                        "Where derivatives nearly do not exist on the way; look at it before the gradient.")
-      .def("dot", [](const PyGradient& self, const PyTangent& direction) { return self.values.dot(direction.values); },
+      .def("dot",
+           [](const PyGradient& self, const PyTangent& direction) {
+             const PlainArithmetic plain;
+             return self.values.dot(direction.values);
+           },
            nb::arg("direction"),
            "Directional derivative: the sum of products of all fields. Raises InputError if the dimensions differ.")
       .def("__repr__", [](const PyGradient& self) {

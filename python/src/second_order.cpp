@@ -36,7 +36,7 @@ PySecondOrder secondOrderOf(const PyMotion& motion, const SeedsArgument& seeds,
   for (const DirectionArgument& direction : directions) along.push_back(directionOf(direction));
   const SeedRates rates = seedRatesBy(seed_rates);
   const auto& scene = motion.motion().scene;
-  const nb::gil_scoped_release free;
+  const Computing free;
   return motion.content->withTape([&](DerivativeTape& tape) {
     Reliability found;
     SceneGradient gradient = adjoint(tape, resolved, &found);
@@ -111,7 +111,7 @@ void bindSecondOrder(nb::module_& module) {
       });
   module.def("has_second_order",
              [](const PyMotion& motion) {
-               const nb::gil_scoped_release free;
+               const Computing free;
                return hasSecondOrder(motion.motion());
              },
              nb::arg("motion"),

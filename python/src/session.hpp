@@ -51,7 +51,7 @@ template <class Call>
 PyUpdate callShort(const PySession& self, Call call) {
   InCallback::refuse();
   const OneAtATime::Use use(self.content->one, "the session");
-  const nb::gil_scoped_release free;
+  const Computing free;
   return {self.content->scene, call(self.content->session)};
 }
 
@@ -59,7 +59,7 @@ PyUpdate callShort(const PySession& self, Call call) {
 template <class Read>
 auto readFrom(const PySession& self, Read read) {
   const OneAtATime::Use use(self.content->one, "the session");
-  const nb::gil_scoped_release free;
+  const Computing free;
   return read(self.content->session);
 }
 

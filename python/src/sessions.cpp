@@ -30,7 +30,7 @@ void makeSession(PySession* self, const PyScene& scene, std::optional<double> du
   const double seconds = duration.value_or(document.duration);
   PySession session;
   {
-    const nb::gil_scoped_release free;
+    const Computing free;
     session.content = std::make_shared<PySessionContent>(scene, seconds, document.controls, document.constraints, options);
   }
   new (self) PySession(std::move(session));

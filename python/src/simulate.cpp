@@ -20,7 +20,7 @@ PyMotion simulated(const PyScene& scene, std::optional<double> duration, std::si
   options.stop = watch.stop();
   options.progress = watch.progress();
   PyMotion motion = [&] {
-    const nb::gil_scoped_release free;
+    const Computing free;
     SceneContent::Contacts contacts(*scene.content);
     return motionOf(scene, simulate(scene.scene(), *contacts, duration.value_or(scene.document().duration), options));
   }();
