@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Times of carom.jax for a ball that bounces three times, in microseconds:  latency.py [FILE]
 
-Best of the rounds, all in one process. Beside a value with its gradient stand what a callback of JAX takes that does nothing,
-and the simulation with its Jacobian alone. With FILE the table is written there (bench/python/latency.csv).
+Best of the rounds, all in one process. Beside a value with its gradient stand what it takes through a callback of Python, what
+such a callback takes that does nothing, and the simulation with its Jacobian alone. With FILE the table is written there (bench/python/latency.csv).
 """
 
 import pathlib
@@ -54,11 +54,19 @@ def main():
     nothing = np.zeros((2, 4))
     callback = jax.jit(lambda x: jax.pure_callback(lambda y: nothing, jax.ShapeDtypeStruct((2, 4), x.dtype), x))
     one = jax.jit(jax.value_and_grad(lambda x: rows(x)[0]))
+    assert carom.jax.direct(), "built without XLA's headers"
+    jax.block_until_ready(one(x))
+    carom.jax.direct = lambda: False
+    through_python = carom.jax.rows(evaluator)
+    slower = jax.jit(jax.value_and_grad(lambda x: through_python(x)[0]))
+    jax.block_until_ready(slower(x))
+    carom.jax.direct = lambda: True
     many = jax.jit(jax.vmap(jax.value_and_grad(lambda x: rows(x)[0])))
     times = best({
         "callback of JAX that does nothing": (lambda: jax.block_until_ready(callback(x)), 50),
         "simulation and Jacobian without JAX": (lambda: host.values_and_jacobian(start), 50),
         "value and gradient": (lambda: jax.block_until_ready(one(x)), 50),
+        "the same through a callback": (lambda: jax.block_until_ready(slower(x)), 50),
         "a batch of 256": (lambda: jax.block_until_ready(many(xs)), 1),
     })
     times["each of a batch of 256"] = times.pop("a batch of 256") / 256

@@ -77,16 +77,16 @@ class Rows:
     def __init__(self, evaluator: NlpEvaluator, *, threads: int | None = None) -> None:
         self.evaluator = evaluator
         self.n, self.m = len(evaluator.variables), len(evaluator.rows)
-        self._threads = _threads(threads)
+        self.threads = _threads(threads)
 
     def values(self, x: npt.ArrayLike) -> Floats:
         points, batch = _points(x, self.n)
-        values, _ = self.evaluator.rows_at(points, threads=self._threads)
+        values, _ = self.evaluator.rows_at(points, threads=self.threads)
         return values.reshape(*batch, self.m)
 
     def values_and_jacobian(self, x: npt.ArrayLike) -> tuple[Floats, Floats]:
         points, batch = _points(x, self.n)
-        values, jacobian = self.evaluator.rows_at(points, jacobian=True, threads=self._threads)
+        values, jacobian = self.evaluator.rows_at(points, jacobian=True, threads=self.threads)
         assert jacobian is not None
         return values.reshape(*batch, self.m), jacobian.reshape(*batch, self.m, self.n)
 

@@ -6,6 +6,7 @@ impacts, and are computed in double precision even if JAX has its 32 bits: then 
 derivatives raise; NlpPoint.hessian has them.
 """
 
+import functools
 import warnings
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
@@ -14,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import batches
-from carom._carom import Control, NlpEvaluator, Scene
+from carom._carom import Control, NlpEvaluator, Scene, xla_handler, xla_number
 from carom.errors import InputError
 
 try:
@@ -24,6 +25,23 @@ except ImportError:
     batches.missing("jax", "jax")
 
 _warned = False
+
+
+@functools.cache
+def direct() -> bool:
+    """Whether programs of JAX compute `rows` directly, on its CPU backend, or else through a callback of Python, which takes
+    60 us longer: where carom was built without XLA's headers, or for a version of XLA that this one does not take."""
+    parts = xla_handler()
+    # Of a backend that is there: before, JAX would keep them for later, and an error would take the backend along.
+    if not parts or jax.default_backend() != "cpu":
+        return False
+    try:
+        jax.ffi.register_ffi_type("carom_rows", {"type_id": parts["type_id"], "type_info": parts["type_info"]}, platform="cpu")
+        jax.ffi.register_ffi_target("carom_rows", {stage: parts[stage] for stage in ("instantiate", "execute")}, platform="cpu")
+    except Exception as error:
+        warnings.warn(f"carom.jax.rows takes the slower way through Python: {error}", stacklevel=2)
+        return False
+    return True
 
 
 def _like(x: Any, n: int) -> Any:
@@ -61,13 +79,22 @@ def rows(evaluator: NlpEvaluator, *, threads: int | None = None) -> Callable[[An
         values, jacobian = work.values_and_jacobian(x)
         return np.concatenate([values[..., None], jacobian], axis=-1)
 
+    def evaluate(x: Any, jacobian: bool) -> Any:
+        host, shape = (together, (work.m, 1 + work.n)) if jacobian else (work.values, (work.m,))
+        if not isinstance(x, jax.core.Tracer):  # not in a program: exceptions come out as they are
+            return jnp.asarray(host(x), dtype=x.dtype)
+        if not direct():
+            return _on_host(host, shape, x)
+        call = jax.ffi.ffi_call("carom_rows", jax.ShapeDtypeStruct(shape, x.dtype), vmap_method="broadcast_all")
+        return call(x, evaluator=np.int64(xla_number(evaluator)), jacobian=np.int64(jacobian), threads=np.int64(work.threads))
+
     @jax.custom_jvp
     def inner(x: Any) -> Any:
-        return _on_host(work.values, (work.m,), x)
+        return evaluate(x, False)
 
     @inner.defjvp
     def rule(primals: Any, tangents: Any) -> Any:
-        both = _on_host(together, (work.m, 1 + work.n), primals[0])
+        both = evaluate(primals[0], True)
         return both[:, 0], both[:, 1:] @ tangents[0]
 
     def function(x: Any) -> Any:

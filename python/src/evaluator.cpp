@@ -4,6 +4,7 @@
 #include "python/src/arrays.hpp"
 #include "python/src/edit.hpp"
 #include "python/src/evaluator_batch.hpp"
+#include "python/src/xla_rows.hpp"
 
 namespace carom::python {
 namespace {
@@ -13,6 +14,7 @@ struct PyEvaluator {
   nb::object edit;
   PyScene scene;
   NlpEvaluator evaluator;
+  std::shared_ptr<const OfferedEvaluator> offered = nullptr;  // once carom.jax has asked
 };
 
 /// carom.NlpPoint; keeps its evaluator for the same reason.
@@ -257,6 +259,15 @@ void bindEvaluator(nb::module_& module, nb::class_<PyEdit>& edit) {
            nb::sig("def evaluator(self, step_limit: int | None = None) -> NlpEvaluator"),
            "The same edit as a nonlinear program, for a solver of your own. step_limit: of each motion. Raises as `solve` "
            "does.");
+  module.def("xla_number",
+             [](PyEvaluator& self) {
+               if (!self.offered) self.offered = std::make_shared<const OfferedEvaluator>(self.evaluator);
+               return self.offered->number();
+             },
+             nb::arg("evaluator"), "The number by which programs of XLA find an evaluator while it lives.");
+  module.def("xla_handler", &xlaHandler, nb::sig("def xla_handler() -> dict[str, typing.Any]"),
+             "Stages of the handler by which XLA computes rows, and the type of its state, as capsules for jax.ffi; empty "
+             "where it was not built.");
 }
 
 }  // namespace carom::python

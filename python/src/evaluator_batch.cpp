@@ -8,14 +8,13 @@
 #include <thread>
 
 #include "adjoint/base/errors.h"
-#include "python/src/interruptible.hpp"
 
 namespace carom::python {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenLooksOfABatch{20};  // a point alone tells of itself only if it takes long
 
-/// Rows of many points, and their Jacobians, in C order.
+/// Evaluates many points in several threads.
 class Batch {
   using Clock = std::chrono::steady_clock;
 
@@ -26,8 +25,7 @@ class Batch {
         count_(count),
         n_(evaluator.variables().size()),
         m_(evaluator.rows().size()),
-        values_(count * m_),
-        entries_(with_jacobian ? count * m_ * n_ : 0),
+        rows_{std::vector<double>(count * m_), std::vector<double>(with_jacobian ? count * m_ * n_ : 0)},
         with_jacobian_(with_jacobian),
         thrown_(count) {}
 
@@ -48,13 +46,11 @@ class Batch {
     }
   }
 
-  /// With the GIL: throws what the first point has thrown, or gives the values (count, m) and the Jacobians (count, m, n).
-  nb::tuple result() {
+  /// Throws what the first point has thrown, or gives all rows.
+  RowsOfMany result() {
     for (const std::exception_ptr& one : thrown_)
       if (one) std::rethrow_exception(one);
-    nb::object values = nb::cast(owning<Array<-1, -1>>(std::move(values_), {count_, m_}), nb::rv_policy::automatic);
-    if (!with_jacobian_) return nb::make_tuple(values, nb::none());
-    return nb::make_tuple(values, owning<Array<-1, -1, -1>>(std::move(entries_), {count_, m_, n_}));
+    return std::move(rows_);
   }
 
  private:
@@ -63,17 +59,17 @@ class Batch {
     const NlpPoint point = evaluator_.at(x, std::move(stop), progress);
     if (!point.available())
       throw NotComputable(count_ == 1 ? point.message() : "point " + std::to_string(i) + ": " + point.message());
-    std::copy_n(point.values().data(), m_, values_.begin() + static_cast<std::ptrdiff_t>(i * m_));
+    std::copy_n(point.values().data(), m_, rows_.values.begin() + static_cast<std::ptrdiff_t>(i * m_));
     if (!with_jacobian_) return;
     using RowByRow = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const Eigen::MatrixXd entries = point.jacobian().entries;
-    Eigen::Map<RowByRow>(entries_.data() + i * m_ * n_, entries.rows(), entries.cols()) = entries;
+    Eigen::Map<RowByRow>(rows_.entries.data() + i * m_ * n_, entries.rows(), entries.cols()) = entries;
   }
 
   const NlpEvaluator& evaluator_;
   const double* x_;
   std::size_t count_, n_, m_;
-  std::vector<double> values_, entries_;
+  RowsOfMany rows_;
   bool with_jacobian_;
   std::vector<std::exception_ptr> thrown_;
   std::atomic<std::size_t> next_ = 0;
@@ -82,20 +78,32 @@ class Batch {
 
 }  // namespace
 
-nb::tuple rowsAt(const NlpEvaluator& evaluator, const ArrayLike& x, bool with_jacobian, int threads) {
-  if (threads < 1) throw InputError("threads", "found " + std::to_string(threads) + ", expected 1 or more");
-  const auto points = numbersOf(x, "x", {-1, static_cast<long>(evaluator.variables().size())});
-  Batch batch(evaluator, points.data(), points.shape(0), with_jacobian);
-  Watch watch;
+RowsOfMany rowsOfMany(const NlpEvaluator& evaluator, const double* x, std::size_t count, bool with_jacobian, int threads,
+                      Watch& watch) {
+  Batch batch(evaluator, x, count, with_jacobian);
   {
-    const Computing free;  // before other threads begin, which take over how it computes
     std::vector<std::jthread> others;
-    for (std::size_t k = 1; k < std::min(static_cast<std::size_t>(threads), points.shape(0)); ++k)
+    for (std::size_t k = 1; k < std::min(static_cast<std::size_t>(threads), count); ++k)
       others.emplace_back([&] { batch.work(watch, false); });
     batch.work(watch, true);
   }
   watch.finish();
   return batch.result();
+}
+
+nb::tuple rowsAt(const NlpEvaluator& evaluator, const ArrayLike& x, bool with_jacobian, int threads) {
+  if (threads < 1) throw InputError("threads", "found " + std::to_string(threads) + ", expected 1 or more");
+  const std::size_t m = evaluator.rows().size(), n = evaluator.variables().size();
+  const auto points = numbersOf(x, "x", {-1, static_cast<long>(n)});
+  const std::size_t count = points.shape(0);
+  Watch watch;
+  RowsOfMany rows = [&] {
+    const Computing free;  // before other threads begin, which take over how it computes
+    return rowsOfMany(evaluator, points.data(), count, with_jacobian, threads, watch);
+  }();
+  nb::object values = nb::cast(owning<Array<-1, -1>>(std::move(rows.values), {count, m}), nb::rv_policy::automatic);
+  if (!with_jacobian) return nb::make_tuple(values, nb::none());
+  return nb::make_tuple(values, owning<Array<-1, -1, -1>>(std::move(rows.entries), {count, m, n}));
 }
 
 }  // namespace carom::python

@@ -65,7 +65,7 @@ void Watch::look(const SimulateProgress& at) {
   const nb::gil_scoped_acquire held;
   try {
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
-    if (!progress_.is_none() && progress_(at).is(nb::bool_(false))) stop_.request_stop();
+    if (progress_.is_valid() && !progress_.is_none() && progress_(at).is(nb::bool_(false))) stop_.request_stop();
   } catch (...) {
     raised_ = std::current_exception();
     stop_.request_stop();

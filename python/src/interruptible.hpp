@@ -13,7 +13,8 @@
 namespace carom::python {
 
 /// Looks for Ctrl-C while a simulation runs in this thread, and tells its progress to a function of Python, or None. What
-/// is raised meanwhile stops it. It costs nothing: a simulation calls it every few thousand steps.
+/// is raised meanwhile stops it. It costs nothing: a simulation calls it every few thousand steps. Without a function (a null
+/// object) it may be made and destroyed without the GIL.
 class Watch {
  public:
   explicit Watch(nb::object progress = nb::none()) : progress_(std::move(progress)) {}

@@ -5,6 +5,7 @@ It installs the wheel with what it requires, checks its size and its licences, a
 differentiate and edit there. What that process has opened then is the system's C and C++ library, and else from the wheel.
 """
 
+import importlib.util
 import io
 import pathlib
 import re
@@ -62,6 +63,8 @@ hard = carom.Edit(scene)
 hard.vary(carom.velocity("ball", min=-1, max=1))
 hard.nail("ball", motion.end).position(100, None, None)
 assert not hard.solve(effort="fast").solved
+from carom import _carom
+print("handler:", bool(_carom.xla_handler()))
 for line in sorted({line.split()[-1] for line in open("/proc/self/maps") if ".so" in line}):
     print("open:", line)
 """
@@ -105,6 +108,8 @@ def main() -> None:
         subprocess.run([python, "-m", "pip", "--quiet", "--disable-pip-version-check", "install", wheel], check=True)
         use = subprocess.run([python, "-I", "-c", USE, SCENES / "bounce.json"], capture_output=True, text=True, cwd=folder)
         assert use.returncode == 0, use.stderr
+        with_headers = importlib.util.find_spec("jaxlib") is not None  # where it was built
+        assert f"handler: {with_headers}\n" in use.stdout, use.stdout
         opened = re.findall("^open: (.*)$", use.stdout, re.MULTILINE)
         ours = {pathlib.Path(path).name.split("-")[0] for path in opened if "/carom.libs/" in path}
         assert {"libipopt", "libdmumps_seq", "libode", "libqhull_r", "libtbb", "liblapack"} <= ours, ours
