@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the tests of the Python package share."""
 
+import importlib
 import os
 import pathlib
 
@@ -12,6 +13,14 @@ os.environ.pop("LD_PRELOAD", None)  # of a sanitizer: not for the programs that 
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENES = ROOT / "examples" / "scenes"
+
+
+def torch_or_skip():
+    """PyTorch; without it the test is left out, but not where CI runs it."""
+    if os.environ.get("CAROM_REQUIRE_TORCH"):
+        return importlib.import_module("torch")
+    return pytest.importorskip("torch", reason="left out: PyTorch is not installed; scripts/setup torch, then tests/python/run /usr")
+
 
 # A ball that bounces on a floor, from the README.
 BALL = {

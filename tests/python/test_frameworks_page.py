@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 import pytest
-from conftest import ROOT
+from conftest import ROOT, torch_or_skip
 
 PAGE = ROOT / "docs" / "python-frameworks.md"
 
@@ -24,7 +24,7 @@ def test_the_page_runs():
 
 
 def test_the_snippet_of_torch_runs():
-    pytest.importorskip("torch", reason="left out: PyTorch is not installed")
+    torch_or_skip()
     snippet, = re.findall(r"^```\n(import torch.*?)^```", PAGE.read_text(), re.DOTALL | re.MULTILINE)
     setup = 'import carom\nevaluator = carom.Edit.of(carom.Scene.read("examples/scenes/bounce.json")).evaluator()\n'
     page = subprocess.run([sys.executable, "-c", setup + snippet], capture_output=True, text=True, cwd=ROOT)

@@ -3,11 +3,11 @@
 
 import numpy as np
 import pytest
-from conftest import SCENES
+from conftest import SCENES, torch_or_skip
 
 import carom
 
-torch = pytest.importorskip("torch", reason="left out: PyTorch is not installed; pip install torch, where it is at hand")
+torch = torch_or_skip()
 
 import carom.torch  # noqa: E402
 
