@@ -43,6 +43,11 @@ std::string alternativeMembers(const Findings& found, std::size_t index, std::in
   return foundText({{"rev", rev}, {"index", index}, {"size", size}, {"much_dearer", other.much_dearer}, {"other_impacts", changes}});
 }
 
+std::string faceUpMessage(const Findings& found, std::int64_t rev) {
+  const std::string& message = found.problem.empty() ? found.face.message : found.problem;
+  return foundText({{"type", "face_up"}, {"rev", rev}, {"more", found.more}, {"tried", found.face.tried}, {"found", found.face.content.has_value()}, {"message", message}});
+}
+
 std::string cancelledMessage(const std::string& type, std::int64_t rev) {
   return foundText({{"type", type}, {"rev", rev}, {"cancelled", true}});
 }

@@ -56,4 +56,17 @@ void findAlternatives(Mailbox& mailbox, std::int64_t question, const SessionSnap
   });
 }
 
+void findFaceUpFor(Mailbox& mailbox, std::int64_t question, const SessionSnapshot& snapshot, const FaceUp& wanted,
+                   const std::stop_token& stop) {
+  answering(mailbox, question, stop, [&](Findings& findings) {
+    OdeContacts contacts(snapshot.content.scene);
+    findings.more = true;
+    const auto tell = [&](int tried) {
+      findings.face.tried = tried;
+      put(mailbox, findings, stop);
+    };
+    findings.face = findFaceUp(snapshot, contacts, wanted, tell, stop);
+  });
+}
+
 }  // namespace carom::studio

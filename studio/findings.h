@@ -8,6 +8,7 @@
 
 #include "editing/session_alternatives.h"
 #include "editing/session_remedies.h"
+#include "studio/face_up.h"
 #include "studio/mailbox.h"
 #include "studio/views.h"
 
@@ -21,6 +22,7 @@ struct Findings {
   SessionWhyNot why;          ///< what would help
   SessionAlternatives others;                             ///< other motions that meet the same
   std::vector<std::shared_ptr<const MotionView>> motions;  ///< of each of them
+  FaceUpFound face;                                        ///< a body with a face up
 };
 
 /// Puts what would help into the mailbox, again and again as it is found out, until `more` is false. Stopped: nothing any more.
@@ -28,5 +30,8 @@ void findRemedies(Mailbox& mailbox, std::int64_t question, const SessionSnapshot
 /// The same with at most `most` other motions, once.
 void findAlternatives(Mailbox& mailbox, std::int64_t question, const SessionSnapshot& snapshot, int most,
                       const std::stop_token& stop);
+/// The same with a body with a face up: the number of tries again and again, the scene at the end.
+void findFaceUpFor(Mailbox& mailbox, std::int64_t question, const SessionSnapshot& snapshot, const FaceUp& wanted,
+                   const std::stop_token& stop);
 
 }  // namespace carom::studio

@@ -108,6 +108,13 @@ What readAddBody(const Json& m) {
   return add;
 }
 
+What readFaceUp(const Json& m) {
+  FaceUp face{integer(m, "rev"), m["body"].get<std::string>(), readVector(m["up"]), std::nullopt, m.value("nail", false)};
+  if (!(face.up.norm() > 0)) fail("/up", describe(m["up"]), "a direction");
+  if (m.contains("place")) face.place = Vec2(m["place"][0].get<double>(), m["place"][1].get<double>());
+  return face;
+}
+
 What readSave(const Json& m) {
   Save save{std::nullopt, m.value("replace", false)};
   if (m.contains("path")) save.path = m["path"].get<std::string>();
@@ -165,6 +172,7 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
       {"alternatives", [](const Json& m) -> What { return Alternatives{integer(m, "rev"), m.value("count", 6)}; }},
       {"remedy", [](const Json& m) -> What { return TakeRemedy{integer(m, "rev"), m["name"].get<std::string>()}; }},
       {"adopt", [](const Json& m) -> What { return Adopt{integer(m, "rev"), m["index"].get<int>()}; }},
+      {"face_up", readFaceUp},
       {"list", [](const Json& m) -> What { return List{m.value("path", std::string()), m.value("meshes", false)}; }},
       {"gallery", [](const Json&) -> What { return Gallery{}; }}};
   return all;

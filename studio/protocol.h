@@ -167,6 +167,14 @@ struct Adopt {
   std::int64_t rev = 0;
   int index = 0;  ///< of the motion
 };
+/// Looks for a throw with which a body comes to rest with a face up, and takes it.
+struct FaceUp {
+  std::int64_t rev = 0;
+  std::string body;             ///< its name
+  Vec3 up = Vec3::Zero();       ///< normal of the face, in the axes of the shape
+  std::optional<Vec2> place = {};  ///< m, where its centre of mass is then; none: anywhere
+  bool nail = false;            ///< that is held from here on
+};
 struct List {
   std::string path;     ///< a folder
   bool meshes = false;  ///< mesh files in place of scenes
@@ -185,7 +193,7 @@ struct Command {
   std::int64_t id = 0;  ///< 0: nobody waits for an answer
   std::variant<Hello, Prove, Grab, GrabNail, Drag, Release, Cancel, Undo, Redo, Stop, MeetNails, MakeNail, SetNail, NailOn,
                Unnail, KeepSequence, SetControls, SetNumbers, Try, AddBody, RemoveBody, CopyBody, RenameBody, NewScene, Open, Save, Export,
-               Why, Alternatives, TakeRemedy, Adopt, List, Gallery, Gone, Found>
+               Why, Alternatives, TakeRemedy, Adopt, FaceUp, List, Gallery, Gone, Found>
       what;  ///< what it asks for
 };
 

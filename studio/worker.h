@@ -110,6 +110,7 @@ class Worker {
   void perform(const Asker& asker, const Alternatives& alternatives);
   void perform(const Asker& asker, const TakeRemedy& take);
   void perform(const Asker& asker, const Adopt& adopt);
+  void perform(const Asker& asker, const FaceUp& face);
   void perform(const Asker& asker, const Found& found);
   void perform(const Asker& asker, const List& list);
   void perform(const Asker& asker, const Gallery& gallery);

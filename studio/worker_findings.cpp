@@ -31,11 +31,26 @@ void Worker::perform(const Asker& asker, const Alternatives& alternatives) {
                   });
 }
 
+void Worker::perform(const Asker& asker, const FaceUp& face) {
+  bodyIndex(session().scene(), face.body);
+  askInBackground(asker, face.rev, "face_up",
+                  [face](Mailbox& mailbox, std::int64_t number, const SessionSnapshot& snapshot, const std::stop_token& stop) {
+                    findFaceUpFor(mailbox, number, snapshot, face, stop);
+                  });
+}
+
 void Worker::perform(const Asker&, const Found& found) {
   if (!question_ || question_->answered || found.what->question != question_->number) return;
   question_->found = found.what;
   question_->answered = !found.what->more;
   const auto& [asker, type, number, rev, answered, what] = *question_;
+  if (type == "face_up") {
+    if (what->face.content) {
+      session().setContent(*what->face.content, "a face up");
+      sayChange({}, session().last());
+    }
+    return tabs_.tell(asker.socket, answering(asker.id, faceUpMessage(*what, rev_)));
+  }
   if (type == "why") return tabs_.tell(asker.socket, answering(asker.id, whyMessage(*what, rev)));
   for (std::size_t i = 0; i < what->motions.size(); ++i) {
     auto view = std::make_shared<MotionView>(*what->motions[i]);

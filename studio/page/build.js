@@ -17,7 +17,7 @@ import { along, dot, minus } from './tools/move.js';
 export const additions = [
   ['Ball', { name: 'ball', shape: { sphere: { radius: 0.1 } }, density: 600 }], ['Box', { name: 'box', shape: { box: { size: [0.2, 0.2, 0.2] } }, density: 600 }],
   ['Cylinder', { name: 'cylinder', shape: { cylinder: { radius: 0.1, height: 0.2 } }, density: 600 }], ['Capsule', { name: 'capsule', shape: { capsule: { radius: 0.05, height: 0.2 } }, density: 600 }],
-  ['Cone', { name: 'cone', shape: { cone: { radius: 0.1, height: 0.2 } }, density: 600 }], ['Table', { name: 'table', shape: { box: { size: [1.2, 0.8, 0.04] } }, fixed: true }],
+  ['Die', { name: 'die', shape: { box: { size: [0.06, 0.06, 0.06] } }, density: 1200 }], ['Cone', { name: 'cone', shape: { cone: { radius: 0.1, height: 0.2 } }, density: 600 }], ['Table', { name: 'table', shape: { box: { size: [1.2, 0.8, 0.04] } }, fixed: true }],
 ];
 
 /** What the next press puts down. @param {Pick<State, 'adding' | 'mesh'>} state @returns {object} as in documents */
@@ -37,10 +37,11 @@ export function fileFrom(file, document) {
 export const arrowSeconds = 0.1;
 
 /** The nearest surface below the pointer, with the side of it that is seen; planes as well.
- * @param {import('./view/view.js').View} view @param {State} state @param {number} x @param {number} y px @returns {Surface | null} */
-export function surfaceUnder(view, { scene, motion, time }, x, y) {
+ * @param {import('./view/view.js').View} view @param {State} state @param {number} x @param {number} y px @param {number} except a body that does not count
+ * @returns {Surface | null} */
+export function surfaceUnder(view, { scene, motion, time }, x, y, except = -1) {
   if (!scene || !motion) return null;
-  const { origin, direction } = view.camera.ray(x, y), seen = view.bodies.surface(view.camera.cast(x, y));
+  const { origin, direction } = view.camera.ray(x, y), seen = view.bodies.surface(view.camera.cast(x, y), except);
   let best = seen, least = seen ? dot(minus(seen.point, origin), direction) : Infinity;
   for (const { plane, body } of scene.shapes) {
     if (!plane) continue;

@@ -165,6 +165,16 @@ export class Commands extends PlayHead {
     if (await this.tell('remedy', { rev: motion?.rev ?? 0, name })) tellChanges(this.store, { undo: () => void this.undo() });
   }
 
+  /** Looks for a throw with which the face that was chosen is up, where that is to be; the answers come into `facing`. */
+  async faceUp() {
+    const { facing, document, motion, nailOnRelease } = this.store.state;
+    if (!facing || !document) return;
+    this.store.set({ facing: { ...facing, searching: true }, before: motion, changesShown: false });
+    const { up, place } = facing, nail = nailOnRelease ? { nail: true } : {};
+    const members = { body: document.bodies[facing.body].name, up, ...(place ? { place: place.slice(0, 2) } : {}), ...nail };
+    if (!await this.build('face_up', members)) this.store.set({ facing: null });
+  }
+
   /** Looks for other motions that meet the same. */
   async findOthers() {
     const rev = this.store.state.motion?.rev ?? 0, { gesture } = this.store.state;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What keys do. None acts while a field has the focus.
 
-/** @typedef {'move' | 'turn' | 'throw' | 'nail' | 'remove' | 'axis x' | 'axis y' | 'axis z' | 'lift' | 'confirm' | 'cancel' | 'play' |
+/** @typedef {'move' | 'turn' | 'throw' | 'face' | 'nail' | 'remove' | 'axis x' | 'axis y' | 'axis z' | 'lift' | 'confirm' | 'cancel' | 'play' |
  *    'earlier' | 'later' | 'impact before' | 'impact after' | 'start' | 'end' | 'undo' | 'redo' | 'save' | 'open' |
  *    'frame' | 'frame all' | 'before' | 'panel' | 'keys' | 'body before' | 'body after'} Action */
 
@@ -10,6 +10,7 @@ export const keyTable = [
   { action: 'move', name: 'move', blender: ['G'], maya: ['W'] },
   { action: 'turn', name: 'turn', blender: ['R'], maya: ['E'] },
   { action: 'throw', name: 'throw: the velocity at the start', blender: ['V'], maya: ['T'] },
+  { action: 'face', name: 'the face that is up at rest', blender: ['U'], maya: ['U'] },
   { action: 'nail', name: 'nail where it is', blender: ['I'], maya: ['S'] },
   { action: 'remove', name: 'remove the nail', blender: ['X', 'Delete'], maya: ['Delete'] },
   { action: 'axis x', name: 'in a drag: along x, again: its own x', blender: ['X'], maya: ['X'] },

@@ -6,6 +6,7 @@ import { Connection } from './connection.js';
 import { ask, askName, choose } from './dialogs/ask.js';
 import { showEmpty } from './dialogs/open.js';
 import { byId } from './dom.js';
+import { Facing } from './facing.js';
 import { Gesture } from './gesture.js';
 import { drawIcons, icon } from './icons.js';
 import { showHeader } from './header.js';
@@ -81,7 +82,8 @@ function start() {
   showNotices(store, { takeRemedy: (name) => void commands.takeRemedy(name) });
   showReadout(store);
   showBodies(store);
-  showBody(store, commands);
+  const facing = new Facing({ store, view, commands });
+  showBody(store, commands, facing);
   showNumbers(store, commands);
   showNails(store, commands);
   showOthers(store, commands, small);
@@ -91,7 +93,7 @@ function start() {
   showHint(store);
   showLayout(store);
   const timeline = new TimeLine(/** @type {HTMLCanvasElement} */ (byId('timeline')), store, commands);
-  const parts = { store, gesture, commands, overlay, view, frame };
+  const parts = { store, gesture, facing, commands, overlay, view, frame };
   listenToPointer(parts);
   listenToKeys(parts);
   if (query.has('test')) addTestHooks({ store, view, overlay, timeline, connection, gesture });

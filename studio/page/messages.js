@@ -54,6 +54,16 @@ export function listener({ store, gesture, opened, recovered }) {
     store.set({ card: cancelled ? { ...card, searching: false } : { ...card, message: card.message.includes(sentence) ? card.message : `${card.message} ${sentence}`, remedies, searching: more } });
   };
 
+  /** How far the search for a face that is up has come. @param {any} message */
+  const faceUp = ({ more, tried, found, cancelled, message }) => {
+    const { facing, document } = store.state;
+    if (!facing?.searching) return;
+    if (more) return store.set({ facing: { ...facing, tried } });
+    const name = document?.bodies[facing.body]?.name;
+    store.set({ facing: null });
+    if (!cancelled) store.set({ notice: found ? { message: `'${name}' comes to rest with ${facing.name} up.` } : { message, kind: 'amber' } });
+  };
+
   /** Another motion that meets the same. @param {import('./frames.js').Frame} frame */
   const another = (frame) => {
     const { others } = store.state, { rev, index, size, other_impacts: impacts } = frame.header;
@@ -78,6 +88,7 @@ export function listener({ store, gesture, opened, recovered }) {
       else if (message.type === 'notice') store.set({ notice: { message: message.message } });
       else if (message.type === 'progress') store.set({ progress: message.message });
       else if (message.type === 'why') why(message);
+      else if (message.type === 'face_up') faceUp(message);
     },
     frame(frame) {
       if (frame.header.type === 'scene') {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // For tests, behind ?test alone: where things are on the screen, and counts of what was drawn and heard.
 
-import { centreAt } from './motion.js';
+import { centreAt, poseAt } from './motion.js';
 
 /** Calls when what was asked to be drawn has been: the work is in another process. @param {WebGL2RenderingContext} gl
  * @param {() => void} act */
@@ -61,7 +61,7 @@ export function addTestHooks({ store, view, overlay, timeline, connection, gestu
     log.frames.push(performance.now());
   };
   Object.assign(globalThis, { carom: {
-    store, gesture, latency, log, connection,
+    store, gesture, latency, log, connection, poseAt,
     invalidate: () => view.invalidate(),
     shaders: () => view.renderer.info.programs?.map((program) => /** @type {any} */ (program).id) ?? [],
     frames: () => view.frames,

@@ -53,6 +53,9 @@
 /** Another motion that meets the same. size: of its change, the smallest that was found 1.
  * @typedef {{index: number, motion: Motion, size: number | null, impacts: string[]}} Other */
 /** @typedef {{rev: number, list: Other[], searching: boolean, message: string, taken: number, taking: boolean}} Others */
+/** A body that is to come to rest with a face up. name: of the face; up: its normal, in the axes of the shape; place: on the surface where
+ * it is to lie; searching: for a throw; tried: so many.
+ * @typedef {{body: number, name: string, up: Vec3, place: Vec3 | null, searching: boolean, tried: number}} FacingState */
 /** The gesture under way, as the drawing parts see it.
  * @typedef {{state: 'idle' | 'pressed' | 'dragging' | 'typing' | 'settling', number: number, hit: Hit | null,
  *    target: Vec3 | null, turn: Quat | null, axis: string, seq: number, answered: number, settlingShown: boolean,
@@ -63,10 +66,10 @@
  *    scene: SceneShapes | null, motion: Motion | null, opened: Motion | null, savedMotion: Motion | null,
  *    before: Motion | null, showBefore: 'none' | 'opened' | 'saved' | 'changes', changesShown: boolean,
  *    time: number, playing: boolean,
- *    speed: number, loop: boolean, loopRange: [number, number] | null, dots: number, selected: number, hover: Hit | null, tool: 'move' | 'turn' | 'throw', adding: number, mesh: string,
+ *    speed: number, loop: boolean, loopRange: [number, number] | null, dots: number, selected: number, hover: Hit | null, tool: 'move' | 'turn' | 'throw' | 'face', adding: number, mesh: string,
  *    gesture: GestureState, nailOnRelease: boolean, leaveRestFree: boolean, turnLeavesPlace: boolean, keymap: 'blender' | 'maya',
  *    locked: ReadonlySet<string>, panel: boolean, quality: 'low' | 'high', notice: Notice | null, card: Notice | null,
- *    others: Others | null, preview: Motion | null, noticesStay: boolean, selectedNail: number, tab: string, looking: boolean}} State  noticesStay: for tests, which take their time;
+ *    facing: FacingState | null, others: Others | null, preview: Motion | null, noticesStay: boolean, selectedNail: number, tab: string, looking: boolean}} State  noticesStay: for tests, which take their time;
  *    looking: nothing can be changed; preview: of the others, the one that is pointed at; adding: which of `additions` the next press puts down, the one behind them: the file `mesh`; -1: none */
 
 export {};

@@ -72,7 +72,7 @@ export class Overlay {
     if (fixed ? !placed : !placed && !moves(track)) return [];
     const place = pointAt(track, track.center, Math.min(time, motion.end));
     if (tool === 'throw') return fixed || time !== 0 ? [] : [throwArrow(place, velocityAt(track, 0), this.project)];
-    return handleShapes(tool, place, this.scale * this.view.camera.axes().perPixel(place), this.project);
+    return tool === 'face' ? [] : handleShapes(tool, place, this.scale * this.view.camera.axes().perPixel(place), this.project);
   }
 
   /** @param {number} x @param {number} y px @returns {import('../types.js').Hit | null} */

@@ -2,6 +2,7 @@
 // The selected body as the document has it: its name, place, throw, size and mass, each to be typed; its copy, its removal.
 
 import { byId, el } from '../dom.js';
+import { facesOf } from '../faces.js';
 import { numberField } from '../number_field.js';
 
 /** @typedef {import('../types.js').BodyState} BodyState */
@@ -31,8 +32,9 @@ export function rowsOf(body, i) {
   return rows;
 }
 
-/** @param {import('../store.js').Store<import('../types.js').State>} store @param {Commands} commands */
-export function showBody(store, commands) {
+/** @param {import('../store.js').Store<import('../types.js').State>} store @param {Commands} commands
+ * @param {import('../facing.js').Facing} facing */
+export function showBody(store, commands, facing) {
   const place = byId('body'), section = byId('body-section');
   let structure = '';
   /** @type {((row: Row) => void)[]} */
@@ -53,11 +55,15 @@ export function showBody(store, commands) {
     select.selectedIndex = names.indexOf(body.material ?? '');
     return el('label', { class: 'body-choice' }, el('span', { class: 'dim' }, 'material'), select);
   };
-  store.on(['document', 'selected'], ({ document, selected }) => {
+  /** Faces that can be up at rest, each a button. @param {number} i @param {import('../faces.js').Face[]} faces */
+  const facesRow = (i, faces) => el('div', { class: 'body-row', role: 'group', 'aria-label': 'Face up at rest' }, el('span', { class: 'dim' }, 'face up at rest'), el('div', { class: 'body-faces' },
+    ...faces.map((face) => el('button', { type: 'button', onclick: () => facing.begin(i, face) && byId('overlay').focus() }, face.name))));
+  store.on(['document', 'selected', 'scene'], ({ document, selected, scene }) => {
     const body = document?.open ? document.bodies[selected] : undefined;
     section.hidden = !body?.position;
     if (!body?.position) return void (structure = '');
-    const rows = rowsOf(body, selected), next = JSON.stringify([selected, body.name, body.fixed, body.material, document?.materials?.map(({ name: of }) => of), rows.map(({ name }) => name)]);
+    const rows = rowsOf(body, selected), shape = scene?.shapes[selected], faces = shape && shape.name === body.name ? facesOf(shape) : [];
+    const next = JSON.stringify([faces, selected, body.name, body.fixed, body.material, document?.materials?.map(({ name: of }) => of), rows.map(({ name }) => name)]);
     if (next !== structure) {
       structure = next;
       updates = [];
@@ -69,7 +75,7 @@ export function showBody(store, commands) {
       });
       name.addEventListener('change', () => name.value.trim() && void commands.renameBody(body.name, name.value.trim()));
       const fixed = el('input', { type: 'checkbox', checked: body.fixed, disabled: !!body.kinematic || !!body.shape?.plane, onchange: () => void commands.fixBody(selected, !body.fixed) });
-      place.replaceChildren(name, el('label', { class: 'switch' }, fixed, 'fixed'), ...(document?.materials?.length ? [materialChoice(body, selected, document.materials)] : []), ...rows.map(fields), el('div', { class: 'body-buttons' },
+      place.replaceChildren(name, el('label', { class: 'switch' }, fixed, 'fixed'), ...(document?.materials?.length ? [materialChoice(body, selected, document.materials)] : []), ...rows.map(fields), ...(faces.length ? [facesRow(selected, faces)] : []), el('div', { class: 'body-buttons' },
         el('button', { type: 'button', onclick: () => void commands.copyBody(body.name) }, 'Duplicate'),
         el('button', { type: 'button', onclick: () => void commands.removeBody(body.name) }, 'Delete')));
     }

@@ -4,6 +4,7 @@
 import * as THREE from 'three';
 import { colours } from '../colours.js';
 import { poseAt } from '../motion.js';
+import { pipsFor } from './pips.js';
 
 /** @typedef {import('../types.js').Shape} Shape */
 /** @typedef {import('../types.js').State} State */
@@ -70,8 +71,11 @@ export class Bodies {
       this.group.add(mesh);
     }
     for (const mesh of kept.values()) {
-      mesh?.geometry.dispose();
-      for (const material of mesh?.material ?? []) material.dispose();
+      mesh?.traverse((part) => {
+        const { geometry, material } = /** @type {THREE.Mesh} */ (part);
+        geometry.dispose();
+        for (const one of [material].flat()) one.dispose();
+      });
     }
   }
 
@@ -81,10 +85,10 @@ export class Bodies {
   }
 
   /** The first place along a ray on a body, and the normal of the side that is seen. @param {THREE.Raycaster} caster
-   * @returns {{point: import('../types.js').Vec3, normal: import('../types.js').Vec3} | null} */
-  surface(caster) {
+   * @param {number} except a body that does not count @returns {{point: import('../types.js').Vec3, normal: import('../types.js').Vec3} | null} */
+  surface(caster, except = -1) {
     this.group.updateMatrixWorld(true);
-    const hit = caster.intersectObjects(this.group.children, false)[0];
+    const hit = caster.intersectObjects(this.group.children.filter((mesh) => mesh !== this.meshes[except]), false)[0];
     if (!hit?.face) return null;
     const normal = hit.face.normal.clone().transformDirection(hit.object.matrixWorld);
     if (normal.dot(caster.ray.direction) > 0) normal.negate();
@@ -106,5 +110,7 @@ function meshOf(shape) {
   const materials = [colour, light].map((color) => new THREE.MeshLambertMaterial({ color, flatShading: !shape.normals }));
   const mesh = new THREE.Mesh(geometryOf(shape), materials);
   mesh.castShadow = mesh.receiveShadow = true;
+  const pips = pipsFor(shape);
+  if (pips) mesh.add(pips);
   return mesh;
 }

@@ -4,7 +4,8 @@
 
 import * as THREE from 'three';
 import { colours, inkOf } from '../colours.js';
-import { moves } from '../motion.js';
+import { lyingPose } from '../faces.js';
+import { moves, turnAt } from '../motion.js';
 import { nailPlaces, placeHeld } from '../overlay/hoops.js';
 import { place } from './bodies.js';
 
@@ -50,6 +51,10 @@ export class Ghosts {
         this.show(wanted, `hover ${hover.body}`, bodies[hover.body], colours.accent, 0.4, 4, [hover.time],
           (time) => place(this.dummy, motion.tracks[hover.body], Math.min(time, motion.end)));
       }
+      const { facing } = state, lying = facing?.place && state.scene?.shapes[facing.body];
+      if (lying) {
+        this.show(wanted, `lying ${facing.body}`, bodies[facing.body], colours.nail, 0.5, 4, [0], () => this.lying(lying, facing, motion));
+      }
       for (const held of nailPlaces(state)) {
         const { nail, body, time } = held;
         if (!nail.on || !nail.available) continue;
@@ -62,6 +67,15 @@ export class Ghosts {
       if (!alive.has(set.geometry)) this.drop(key, set);
       else if (!wanted.has(key)) for (const mesh of set.meshes) mesh.visible = false;
     }
+  }
+
+  /** On a surface with a face up. @param {import('../types.js').Shape} shape @param {import('../types.js').FacingState} facing
+   * @param {NonNullable<State['motion']>} motion */
+  lying(shape, { up, place: on }, motion) {
+    if (!on) return;
+    const { place: [x, y, z], turn: [w, qx, qy, qz] } = lyingPose(shape, up, on, turnAt(motion.tracks[shape.body], motion.end));
+    this.dummy.position.set(x, y, z);
+    this.dummy.quaternion.set(qx, qy, qz, w);
   }
 
   /** The pose that a nail wants; what it leaves free is as it is now. @param {import('../overlay/hoops.js').NailPlace} held
