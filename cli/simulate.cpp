@@ -112,7 +112,7 @@ Action declareSimulate(CLI::App& app) {
 const Command kSimulateCommand{
     "simulate", "Simulate a scene: every impact, and states at any time",
     "Prints every impact (time, bodies, contact point and normal, mode, and margin: the distance from\n"
-    "where derivatives do not exist), persistent contacts (which bodies rest, slide, roll and pivot on\n"
+    "where derivatives do not exist), persistent contacts (which bodies rest, slide, roll, pivot and ride on\n"
     "what, from when to when), and the state at the end or at given times. Bounces lower than a millionth\n"
     "of a body are not reported as impacts; --json has them. More than 50 impacts are summarised by mode,\n"
     "pair and body, unless --impacts.\n"

@@ -81,6 +81,10 @@ class ConstrainedPath final : public Trajectory {
   /// that of its acceleration.
   ConstrainedInstant instantAt(double t) const;
 
+  /// J: what supports that move do on the body from the start of the path to t, the sum of f.u over their contacts, u the velocity of
+  /// their material there.
+  double supportWork(double t) const;
+
   /// Where a guard comes nearest to 0 and turns away from it: a little change lets it end the path there.
   struct NearMiss {
     double margin = kInfinity;  ///< the value of the guard

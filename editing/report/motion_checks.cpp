@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adjoint/constrained/constrained_path.hpp"
 #include "adjoint/contact/contact_path.hpp"
 #include "adjoint/motion/body_geometry.h"
 
@@ -23,18 +24,20 @@ double endOf(const Motion& motion, const WorldLine& line, std::size_t k) {
   return k < line.events.size() ? motion.events[static_cast<std::size_t>(line.events[k])].time : motion.end;
 }
 
-// Energy that comes or goes, as a share of what there is; of a body that slides, energy that comes.
+// Energy that comes or goes, but for what supports that move do, as a share of what there is; of a body that slides, energy that
+// comes.
 double driftOf(const Arc& arc, const Vec3& of_scene, double end, int samples) {
   const BodyModel& model = arc.model();
   const Vec3 gravity = model.gravity_factor * of_scene;
   const bool slides = arc.kind() == ArcKind::slide;
   const auto potential = [&](const State& s) { return -model.mass * gravity.dot(s.x); };
   const double kinetic = kineticEnergy(model, arc.startState()), height = potential(arc.startState());
+  const ConstrainedPath* constrained = arc.trajectory().constrained();
   double drift = 0, most = kinetic, work = 0;
   for (int i = 1; i <= samples + 1; ++i) {
     const double t = i > samples ? end : arc.start() + (end - arc.start()) * i / (samples + 1);
     const State s = arc.stateAt(t);
-    const double now = kineticEnergy(model, s), gained = potential(s) - height;
+    const double now = kineticEnergy(model, s), gained = potential(s) - height - (constrained ? constrained->supportWork(t) : 0);
     drift = std::max(drift, slides ? now - kinetic + gained : std::abs(now - kinetic + gained));
     most = std::max(most, now);
     work = std::max(work, std::abs(gained));
