@@ -112,6 +112,11 @@ void SvgCanvas::element(std::string_view name, const SvgAttributes& first, const
   start(name, {&first, &second, &third}, "/>\n");
 }
 
+void SvgCanvas::titled(std::string_view name, const SvgAttributes& attributes, std::string_view words) {
+  start(name, {&attributes}, "><title>");
+  out_ += xmlText(words) + "</title></" + std::string(name) + ">\n";
+}
+
 void SvgCanvas::text(const Vec2& at, std::string_view words, const SvgAttributes& attributes) {
   const SvgAttributes place{{"x", svgNumber(at.x())}, {"y", svgNumber(at.y())}};
   start("text", {&place, &attributes}, ">");

@@ -51,6 +51,8 @@ class SvgCanvas {
   /// With the attributes of all three lists.
   void element(std::string_view name, const SvgAttributes& first, const SvgAttributes& second = {},
                const SvgAttributes& third = {});
+  /// The same with words that are shown where somebody points at it.
+  void titled(std::string_view name, const SvgAttributes& attributes, std::string_view words);
   void text(const Vec2& at, std::string_view words, const SvgAttributes& attributes = {});
   void append(std::string_view part) { out_ += part; }
   /// Bytes so far.

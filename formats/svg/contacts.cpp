@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Persistent contact: a broad, pale stroke where a body rolls, the same dashed where it slides and dotted where it
-// pivots, and a square where it comes to rest.
+// Persistent contact: a broad, pale stroke where a body rolls, the same dashed where it slides, in long dashes where it rides and
+// dotted where it pivots, and a square where it comes to rest. Each says on what when somebody points at it.
+#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "adjoint/motion/lasting_contact.h"
 #include "formats/drawing/motion_extent.hpp"
 #include "formats/svg/layers.hpp"
 
@@ -36,20 +38,51 @@ void forLines(const Picture& picture, F f) {
     if (picture.paths.looks[body].as == BodyLook::As::line) f(static_cast<int>(body), picture.paths.looks[body]);
 }
 
+/// Who does what on whom: of one picture.
+class OnWhat {
+ public:
+  explicit OnWhat(const Motion& motion) : motion_(motion) {
+    if (motion.has_events) contacts_ = lastingContacts(motion);
+  }
+
+  /// "top rests on left and right", within a range of arcs.
+  std::string words(int body, const ArcRange& range, ArcKind kind, const char* verb) const {
+    const std::vector<Arc>& arcs = motion_.world_lines[static_cast<std::size_t>(body)].arcs;
+    const double from = arcs[static_cast<std::size_t>(range.first)].start();
+    const auto next = static_cast<std::size_t>(range.last) + 1;
+    const double until = next < arcs.size() ? arcs[next].start() : motion_.end;
+    std::vector<std::string> names;
+    for (const LastingContact& c : contacts_) {
+      if (c.body != body || c.kind != kind || !(c.from < until) || !(c.to > from)) continue;
+      const std::string& name = nameOfBody(c.with);
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+    std::string text = nameOfBody(body) + " " + verb;
+    for (std::size_t i = 0; i < names.size(); ++i) text += (i == 0 ? " on " : i + 1 < names.size() ? ", " : " and ") + names[i];
+    return text;
+  }
+
+ private:
+  const std::string& nameOfBody(int body) const { return motion_.scene->bodies[static_cast<std::size_t>(body)].name; }
+
+  const Motion& motion_;
+  std::vector<LastingContact> contacts_;
+};
+
 struct Stroke {
   ArcKind kind;
   Mark mark;
   const char *words, *dashes;
 };
 
-void drawStrokes(const LayerPage& page, const Stroke& stroke) {
+void drawStrokes(const LayerPage& page, const OnWhat& on, const Stroke& stroke) {
   const Motion& motion = page.picture.motion;
   SvgCanvas strokes;
   forLines(page.picture, [&](int body, const BodyLook& look) {
     for (const ArcRange& range : rangesOf(motion.world_lines[static_cast<std::size_t>(body)], stroke.kind)) {
       if (page.canvas.size() + strokes.size() > page.most) return;
-      strokes.element("path", {{"d", pathData(motion, body, page.view, page.picture.paths.tolerance, range)},
-                               {"stroke", paleOf(look.colour)}});
+      strokes.titled("path", {{"d", pathData(motion, body, page.view, page.picture.paths.tolerance, range)}, {"stroke", paleOf(look.colour)}},
+                     on.words(body, range, stroke.kind, stroke.words));
     }
   });
   if (strokes.size() == 0) return;
@@ -66,7 +99,7 @@ void drawStrokes(const LayerPage& page, const Stroke& stroke) {
   page.legend.add({stroke.mark, stroke.words, paleOf(kKeyColour), stroke.dashes, kStrokeWidth});
 }
 
-void drawRests(const LayerPage& page) {
+void drawRests(const LayerPage& page, const OnWhat& on) {
   const Motion& motion = page.picture.motion;
   SvgCanvas squares;
   forLines(page.picture, [&](int body, const BodyLook& look) {
@@ -75,8 +108,9 @@ void drawRests(const LayerPage& page) {
       if (page.canvas.size() + squares.size() > page.most) return;
       const Arc& arc = line.arcs[static_cast<std::size_t>(range.first)];
       const Vec2 at = page.view.pixel(arc.positionAt(arc.start()));
-      squares.element("rect", boxSides({at.x() - kRestSide / 2, at.y() - kRestSide / 2, kRestSide, kRestSide}),
-                      {{"stroke", look.colour.hex()}});
+      SvgAttributes square = boxSides({at.x() - kRestSide / 2, at.y() - kRestSide / 2, kRestSide, kRestSide});
+      square.emplace_back("stroke", look.colour.hex());
+      squares.titled("rect", square, on.words(body, range, ArcKind::rest, "rests"));
     }
   });
   if (squares.size() == 0) return;
@@ -93,11 +127,12 @@ void drawContacts(const LayerPage& page) {
     if (page.index == 0) page.legend.leaveOut("where bodies roll, slide, pivot, ride and rest");
     return;
   }
-  drawStrokes(page, {ArcKind::roll, Mark::roll, "rolls", "none"});
-  drawStrokes(page, {ArcKind::slide, Mark::slide, "slides", "4 3"});
-  drawStrokes(page, {ArcKind::pivot, Mark::pivot, "pivots", "1.5 3"});
-  drawStrokes(page, {ArcKind::ride, Mark::ride, "rides", "9 3"});
-  drawRests(page);
+  const OnWhat on(page.picture.motion);
+  drawStrokes(page, on, {ArcKind::roll, Mark::roll, "rolls", "none"});
+  drawStrokes(page, on, {ArcKind::slide, Mark::slide, "slides", "4 3"});
+  drawStrokes(page, on, {ArcKind::pivot, Mark::pivot, "pivots", "1.5 3"});
+  drawStrokes(page, on, {ArcKind::ride, Mark::ride, "rides", "9 3"});
+  drawRests(page, on);
 }
 
 }  // namespace carom::formats_detail

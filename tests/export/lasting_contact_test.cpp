@@ -103,6 +103,23 @@ TEST(LastingExport, WhatTurnsAboutAnEdgePivots) {
   EXPECT_GT(rows, 20u);
 }
 
+TEST(LastingExport, ThePictureSaysWhoLiesOnWhom) {
+  Body lift = makeBox("lift", {2, 2, 0.2}, {4, 0, -0.1}, {0, 0, 0.5});
+  lift.kinematic = true;
+  lift.mass.reset();
+  const Motion motion = playLasting(makeScene({0, 0, -9.81}, 0, 0.5,
+                                              {fixedBody(makeBox("floor", {4, 4, 1}, {0, 0, -0.5})), makeBox("left", {1, 1, 1}, {-0.6, 0, 0.5}),
+                                               makeBox("right", {1, 1, 1}, {0.6, 0, 0.5}), makeBox("top", {1, 1, 1}, {0, 0, 1.5}), lift,
+                                               makeBox("parcel", {0.5, 0.5, 0.5}, {4, 0, 0.25}, {0, 0, 0.5})}),
+                                    1);
+  ASSERT_EQ(motion.status, MotionStatus::complete) << motion.message;
+  const std::string svg = pictureOf(motion);
+  expectGoodPicture(svg);
+  for (const char* words : {"<title>top rests on left and right</title>", "<title>left rests on floor</title>", "<title>parcel rides on lift</title>"})
+    EXPECT_NE(svg.find(words), std::string::npos) << words;
+  EXPECT_EQ(SvgPicture(svg).ofClass("ride", "side").size(), 1u);
+}
+
 TEST(LastingExport, ThePictureMarksWhatCountsAsAnImpact) {
   const Motion motion = playLasting(everyPath(), 2);
   ASSERT_GT(motion.events.size(), 2 * motion.impacts);  // bounces lower than a micrometre, and changes of what lasts

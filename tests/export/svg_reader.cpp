@@ -130,8 +130,8 @@ bool SvgPicture::isWithin(int element, const std::string& key, const std::string
 std::vector<int> SvgPicture::ofClass(const std::string& name, const std::string& view) const {
   std::vector<int> out;
   for (int i = 0; i < static_cast<int>(elements_.size()); ++i)
-    if (elements_[static_cast<std::size_t>(i)].name != "g" && isWithin(i, "class", name) &&
-        (view.empty() || isWithin(i, "id", "view-" + view)))
+    if (const std::string& kind = elements_[static_cast<std::size_t>(i)].name;
+        kind != "g" && kind != "title" && isWithin(i, "class", name) && (view.empty() || isWithin(i, "id", "view-" + view)))
       out.push_back(i);
   return out;
 }

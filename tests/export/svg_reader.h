@@ -35,7 +35,7 @@ class SvgPicture {
   /// The attribute of an element, or of the nearest around it that has it.
   std::string inherited(int element, const std::string& key) const;
   bool isWithin(int element, const std::string& key, const std::string& value) const;
-  /// Elements with a class, or within a group of that class; of one view, or of both where none is named.
+  /// Elements with a class, or within a group of that class, but for the titles of others; of one view, or of both where none is named.
   std::vector<int> ofClass(const std::string& name, const std::string& view = "") const;
 
   /// Where texts are, by widths of letters of a common font.
