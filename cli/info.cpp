@@ -141,6 +141,16 @@ void printShapes(Output& out, const Scene& scene) {
   sayMoreBodies(out, scene);
 }
 
+void printSurfaces(Output& out, const Scene& scene) {
+  const auto moving = std::ranges::count_if(scene.bodies, &Body::surfaceMoves);
+  if (moving == 0) return;
+  out.text() << "\nSurfaces that move, in the axes of their shapes:\n";
+  Table table({"body", "velocity [m/s]", "angular velocity [rad/s]"});
+  for (const Body& body : scene.bodies)
+    if (body.surfaceMoves()) table.row({body.name, out.vector(body.surface_velocity), out.vector(body.surface_angular_velocity)});
+  table.print(out);
+}
+
 /// Names with what is said of each, in the order in which it was first said.
 class Sayings {
  public:
@@ -228,6 +238,7 @@ Exit describeScene(const std::string& path, Output& out) {
              << counted(plan.rows, "constrained quantity", "constrained quantities") << '\n';
   printNotes(out, document);
   printShapes(out, document.scene);
+  printSurfaces(out, document.scene);
   printBodies(out, document.scene, plan);
   printPairs(out, document.scene, plan);
   printLasting(out, document.scene, plan);

@@ -27,6 +27,7 @@ Scene rounded(Scene scene, unsigned draw) {
   for (Material& m : scene.materials) change(m.friction), change(m.tangential_elasticity);
   for (Body& b : scene.bodies) {
     changeAll(b.position), changeAll(b.velocity), changeAll(b.angular_velocity);
+    changeAll(b.surface_velocity), changeAll(b.surface_angular_velocity);
     if (b.mass) change(*b.mass);
     if (b.density) change(*b.density);
     if (draw % 3 != 0) continue;

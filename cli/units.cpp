@@ -11,7 +11,7 @@ std::string unitOf(const std::string& name) {
       {"orientation", "rad"}, {"time", "s"},      {"mass", "kg"},         {"inertia", "kg m^2"},
       {"size", "m"},         {"gravity", "m/s^2"}, {"avoid", "m"},        {"inside", "m"},
       {"speed", "m/s"},      {"kinetic_energy", "J"}, {"impulse", "N s"}, {"height", "m"},
-      {"contact", "m"}};
+      {"contact", "m"},      {"surface_velocity", "m/s"}, {"surface_angular_velocity", "rad/s"}};
   const std::string number = name.substr(0, name.find(' '));  // "size.0.scale"
   if (number.ends_with(".scale")) return "";
   const std::string word = number.substr(0, number.find('.'));

@@ -24,6 +24,8 @@ Control position(std::string body) { return ofBody("position", std::move(body));
 Control orientation(std::string body) { return ofBody("orientation", std::move(body)); }
 Control velocity(std::string body) { return ofBody("velocity", std::move(body)); }
 Control angularVelocity(std::string body) { return ofBody("angular_velocity", std::move(body)); }
+Control surfaceVelocity(std::string body) { return ofBody("surface_velocity", std::move(body)); }
+Control surfaceAngularVelocity(std::string body) { return ofBody("surface_angular_velocity", std::move(body)); }
 Control elasticity(std::string material) { return ofMaterial("elasticity", std::move(material)); }
 Control friction(std::string material) { return ofMaterial("friction", std::move(material)); }
 Control tangentialElasticity(std::string material) { return ofMaterial("tangential_elasticity", std::move(material)); }

@@ -10,7 +10,8 @@
 namespace carom {
 
 /// Scene parameters that an edit may change. `vary` is the word of the scene document: position, orientation,
-/// velocity, angular_velocity, elasticity, friction, tangential_elasticity, mass, inertia, size, tilt, gravity.
+/// velocity, angular_velocity, surface_velocity, surface_angular_velocity, elasticity, friction, tangential_elasticity, mass,
+/// inertia, size, tilt, gravity.
 struct Control {
   std::string vary;                     ///< kind of parameter
   std::string body;                     ///< for kinds that belong to a body
@@ -38,6 +39,8 @@ Control position(std::string body);                  ///< initial position of a 
 Control orientation(std::string body);               ///< its initial orientation
 Control velocity(std::string body);                  ///< its initial velocity, m/s
 Control angularVelocity(std::string body);           ///< its initial angular velocity, rad/s
+Control surfaceVelocity(std::string body);           ///< surface velocity of a fixed or kinematic body, m/s, its axes
+Control surfaceAngularVelocity(std::string body);    ///< its surface angular velocity, rad/s, its axes
 Control elasticity(std::string material);            ///< coefficient of restitution of a material
 Control friction(std::string material);              ///< Coulomb coefficient of a material
 Control tangentialElasticity(std::string material);  ///< coefficient of tangential restitution of a material

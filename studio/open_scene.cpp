@@ -24,6 +24,8 @@ const std::map<std::string, Json>& defaultVectors() {
   static const std::map<std::string, Json> all = {{"position", {0, 0, 0}},
                                                   {"velocity", {0, 0, 0}},
                                                   {"angular_velocity", {0, 0, 0}},
+                                                  {"surface_velocity", {0, 0, 0}},
+                                                  {"surface_angular_velocity", {0, 0, 0}},
                                                   {"orientation", {1, 0, 0, 0}},
                                                   {"gravity", {0, 0, -9.81}}};
   return all;
@@ -190,7 +192,8 @@ std::optional<std::string> pointerOf(const Control& control, const std::string& 
   if (body == bodies.end()) return std::nullopt;
   const std::string place = pointerTo("/bodies", static_cast<std::size_t>(body - bodies.begin())) + "/" + control.vary;
   if (control.vary == "mass") return body->mass ? std::optional(place) : std::nullopt;
-  const bool vector = control.vary == "position" || control.vary == "velocity" || control.vary == "angular_velocity";
+  const bool vector = control.vary == "position" || control.vary == "velocity" || control.vary == "angular_velocity" ||
+                      control.vary == "surface_velocity" || control.vary == "surface_angular_velocity";
   return vector && axis != kAxes.end() ? std::optional(place + index) : std::nullopt;
 }
 

@@ -39,7 +39,8 @@ void checkDirection(const char* where, const Scene& scene, const SceneTangent& d
     const Shape& shape = scene.bodies[i].shape;
     const Eigen::Index sizes = kindOf(shape).dimensions(shape).size();
     checkCount(where, "rates of dimensions", static_cast<std::size_t>(b.size.size()), static_cast<std::size_t>(sizes));
-    for (const Vec3* rates : {&b.position, &b.orientation, &b.velocity, &b.angular_velocity, &b.inertia})
+    for (const Vec3* rates : {&b.position, &b.orientation, &b.velocity, &b.angular_velocity, &b.inertia, &b.surface_velocity,
+                              &b.surface_angular_velocity})
       checkEntries(where, "a rate of a body of", *rates);
     checkEntries(where, "a rate of a dimension of", b.size);
     for (double rate : {b.mass, b.density}) checkedNumber(where, "a rate of a body of", rate);

@@ -9,7 +9,8 @@ namespace {
 
 bool isZero(const BodyDerivative& d) {
   return d.position.isZero(0) && d.orientation.isZero(0) && d.velocity.isZero(0) && d.angular_velocity.isZero(0) &&
-         d.mass == 0 && d.density == 0 && d.inertia.isZero(0) && d.size.isZero(0);
+         d.mass == 0 && d.density == 0 && d.inertia.isZero(0) && d.size.isZero(0) &&
+         d.surface_velocity.isZero(0) && d.surface_angular_velocity.isZero(0);
 }
 
 bool isZero(const MaterialDerivative& d) {

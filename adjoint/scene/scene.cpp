@@ -108,7 +108,8 @@ double SceneDerivativeOf<double>::dot(const SceneDerivativeOf& o) const {
     const BodyDerivative &b = bodies[i], &c = o.bodies[i];
     sum += b.position.dot(c.position) + b.orientation.dot(c.orientation) + b.velocity.dot(c.velocity) +
            b.angular_velocity.dot(c.angular_velocity) + b.mass * c.mass + b.density * c.density +
-           b.inertia.dot(c.inertia) + b.size.dot(c.size);
+           b.inertia.dot(c.inertia) + b.size.dot(c.size) + b.surface_velocity.dot(c.surface_velocity) +
+           b.surface_angular_velocity.dot(c.surface_angular_velocity);
   }
   for (std::size_t i = 0; i < tilts.size(); ++i) sum += tilts[i].dot(o.tilts[i]);
   return sum;

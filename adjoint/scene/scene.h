@@ -74,10 +74,17 @@ struct Body {
   Quat orientation = Quat::Identity();   ///< shape to world, unit
   Vec3 velocity = Vec3::Zero();          ///< m/s, world, of the centre of mass
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s, world axes
-  std::string notes = {};                ///< for readers; kept in documents
+  /// Velocity beta0 and angular velocity w0 of the material of its surface beside its own motion, in the axes and about the
+  /// origin of the shape, m/s and rad/s: a belt, a turntable plate. Of fixed and kinematic bodies alone. At a contact at p with
+  /// normal n it is the part along the surface of R beta0 + (R w0) x (p - position): (4.6) of docs/equations.md.
+  Vec3 surface_velocity = Vec3::Zero();
+  Vec3 surface_angular_velocity = Vec3::Zero();  ///< w0, see surface_velocity
+  std::string notes = {};                        ///< for readers; kept in documents
 
   /// Fixed or kinematic: its mass and inertia are ignored.
   bool immovable() const { return fixed || kinematic; }
+  /// Whether its surface moves beside the body itself.
+  bool surfaceMoves() const { return !surface_velocity.isZero(0) || !surface_angular_velocity.isZero(0); }
   bool operator==(const Body&) const = default;  ///< field by field, as written
 };
 
@@ -112,7 +119,7 @@ const Material& materialOf(const Scene& scene, const Body& body);
 
 /// Throws InputError, with a JSON pointer, for the first invalid input: non-finite numbers, non-positive sizes and
 /// masses, impossible moments, non-unit quaternions, duplicate or unknown names, fixed-only shapes that move, fixed
-/// bodies that are kinematic. Bodies that overlap at the start are found by the ContactSource.
+/// bodies that are kinematic, moving surfaces of bodies that impacts move. Bodies that overlap at the start are found by the ContactSource.
 void validate(const Scene& scene);
 
 /// Derivatives with respect to the parameters of one body. As a gradient each field holds d(quantity)/d(parameter);
@@ -129,6 +136,8 @@ struct BodyDerivativeOf {
   S density = 0;                              ///< kg/m^3; used where the scene gives the density
   Vector inertia = Vector::Zero();            ///< principal moments; unused when the inertia is derived
   Eigen::Matrix<S, Eigen::Dynamic, 1> size;   ///< the shape's dimensions, in the order of ShapeKind::dimension_names
+  Vector surface_velocity = Vector::Zero();          ///< m/s, shape axes; 0 for a body that impacts move
+  Vector surface_angular_velocity = Vector::Zero();  ///< rad/s, shape axes; 0 for a body that impacts move
 };
 /// The coefficients of one material, see BodyDerivativeOf.
 template <class S>

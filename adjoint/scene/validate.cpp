@@ -161,6 +161,12 @@ void validateFilter(const Place& where, const CollisionFilter& filter) {
   named(where / "not_collide_with", filter.not_collide_with);
 }
 
+void validateSurfaceMotion(const Place& where, const Body& body, const Vec3& value) {
+  requireFinite(where, value);
+  if (!body.immovable() && !value.isZero(0))
+    fail(where, "a moving surface of a body that impacts move", "none, or zeros: surfaces of fixed and kinematic bodies move");
+}
+
 void validateBody(const Place& where, const Body& body, const Names& materials) {
   if (body.fixed && body.kinematic) fail(where / "kinematic", "a fixed body that is kinematic", "one of the two");
   validateShape(where, body);
@@ -173,6 +179,8 @@ void validateBody(const Place& where, const Body& body, const Names& materials) 
   requireUnit(where / "orientation", body.orientation);
   requireFinite(where / "velocity", body.velocity);
   requireFinite(where / "angular_velocity", body.angular_velocity);
+  validateSurfaceMotion(where / "surface_velocity", body, body.surface_velocity);
+  validateSurfaceMotion(where / "surface_angular_velocity", body, body.surface_angular_velocity);
 }
 
 void validateTilt(const Place& where, const Tilt& tilt, const Scene& scene, const Names& bodies) {

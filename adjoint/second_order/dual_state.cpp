@@ -15,7 +15,8 @@ SceneGradient picked(const SceneBar& bar, const Scene& scene, const OfNum& numbe
   for (std::size_t b = 0; b < bar.bodies.size(); ++b) {
     const BodyBar& in = bar.bodies[b];
     out.bodies[b] = {matrix(in.position), matrix(in.orientation), matrix(in.velocity), matrix(in.angular_velocity),
-                     number(in.mass),     number(in.density),     matrix(in.inertia),  matrix(in.size)};
+                     number(in.mass),     number(in.density),     matrix(in.inertia),  matrix(in.size),
+                     matrix(in.surface_velocity), matrix(in.surface_angular_velocity)};
   }
   for (std::size_t t = 0; t < bar.tilts.size(); ++t) out.tilts[t] = matrix(bar.tilts[t]);
   return out;

@@ -37,6 +37,10 @@ std::vector<Control> controlsOfKind(const ControlKind& kind, const Scene& scene,
       if (any || (moving ? !body.fixed : !body.immovable()))
         controls.push_back(control), controls.back().body = body.name;
   }
+  if (kind.owner == OwnerKind::immovable_body) {
+    for (const Body& body : scene.bodies)
+      if (body.surfaceMoves()) controls.push_back(control), controls.back().body = body.name;
+  }
   if (kind.owner == OwnerKind::impact) {
     for (std::size_t e = 0; e < events; ++e)
       for (const Participant& p : motion.events[e].participants) {

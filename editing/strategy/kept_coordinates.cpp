@@ -84,7 +84,8 @@ struct Proof {
       const auto* plane = std::get_if<Plane>(&other.shape);
       if (!plane || !other.fixed || varies(other, "orientation")) return std::nullopt;
       const bool parallel = (other.orientation * plane->normal)[axis] == 0;
-      if (!parallel || !(mirrored || slidesFreely(body, other))) return std::nullopt;
+      const bool still = !other.surfaceMoves() && !varies(other, "surface_velocity") && !varies(other, "surface_angular_velocity");
+      if (!parallel || !((mirrored && still) || slidesFreely(body, other))) return std::nullopt;
     }
     const std::string word(1, "xyz"[axis]);
     KeptCoordinate kept;

@@ -48,6 +48,8 @@ void writeBodyPlan(JsonWriter& out, const Body& body, const BodyPlan& plan, cons
   writeMassProperties(out, body);
   if (body.kinematic) out.members("kinematic", true);
   if (body.gravity_factor != 1) out.members("gravity_factor", body.gravity_factor);
+  if (body.surfaceMoves())
+    out.members("surface_velocity", body.surface_velocity, "surface_angular_velocity", body.surface_angular_velocity);
   writeFilter(out, body.collision_filter);
   out.members("tier", nameOf(plan.tier), "why", plan.why);
   out.members("derivative_tier", nameOf(plan.derivative_tier), "derivative_why", plan.derivative_why);

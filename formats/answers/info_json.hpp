@@ -45,7 +45,8 @@ struct ScenePlan {
 
 /// The answer of `carom info S.json --json`: name and notes (null where the document has none), duration, asked, bodies
 /// {name, notes where it has some, shape, dimensions by name, of moving ones mass, center_of_mass (m, shape axes) and
-/// principal moments (kg m^2), of those that differ kinematic, gravity_factor and collision_filter, tier, why,
+/// principal moments (kg m^2), of those that differ kinematic, gravity_factor, surface_velocity, surface_angular_velocity and
+/// collision_filter, tier, why,
 /// derivative_tier, derivative_why, of those that impacts move lasting_contact (kinds, as of LastingContact) and
 /// lasting_contact_ends (where it ends the motion)}, components {bodies, rests, why} of bodies that the scene starts on each other, overlaps {bodies, depth}, repairs {file, what}, pairs {bodies, law, why, elasticity,
 /// friction, tangential_elasticity}, controls, rows.

@@ -67,6 +67,14 @@ void requireAtRest(const Body& body, const std::string& where) {
     fail(where + "/angular_velocity", "an angular velocity of a fixed body", "none, or zeros");
 }
 
+void requireStillSurface(const Body& body, const std::string& where) {
+  if (body.immovable()) return;
+  for (const auto& [member, value] : {std::pair("surface_velocity", body.surface_velocity),
+                                      std::pair("surface_angular_velocity", body.surface_angular_velocity)})
+    if (!value.isZero(0))
+      fail(where + "/" + member, "a moving surface of a body that impacts move", "none, or zeros: surfaces of fixed and kinematic bodies move");
+}
+
 CollisionFilter readFilter(const Json& value) {
   const auto names = [&](const char* member) { return value.value(member, std::vector<std::string>()); };
   return {names("systems"), names("collide_with"), names("not_collide_with")};
@@ -91,8 +99,11 @@ Body readBody(const Json& value, const std::string& where, SurfaceFiles& files) 
   if (value.contains("orientation")) body.orientation = readQuaternion(value["orientation"], where + "/orientation");
   body.velocity = vectorOr(value, "velocity", body.velocity);
   body.angular_velocity = vectorOr(value, "angular_velocity", body.angular_velocity);
+  body.surface_velocity = vectorOr(value, "surface_velocity", body.surface_velocity);
+  body.surface_angular_velocity = vectorOr(value, "surface_angular_velocity", body.surface_angular_velocity);
   body.notes = textOr(value, "notes");
   requireAtRest(body, where);
+  requireStillSurface(body, where);
   return body;
 }
 

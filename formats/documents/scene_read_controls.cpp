@@ -19,7 +19,7 @@ struct OwnerMembers {
 
 OwnerMembers membersOf(OwnerKind owner) {
   return {owner == OwnerKind::body || owner == OwnerKind::moving_body || owner == OwnerKind::free_body ||
-              owner == OwnerKind::impact,
+              owner == OwnerKind::immovable_body || owner == OwnerKind::impact,
           owner == OwnerKind::material, owner == OwnerKind::impact};
 }
 
@@ -35,9 +35,12 @@ ControlOwner readOwner(const Json& value, OwnerKind kind, const Scene& scene, co
   ControlOwner owner;
   if (value.contains("body")) {
     owner.body = readBodyName(value["body"], where + "/body", scene);
-    if (kind != OwnerKind::body && scene.bodies[static_cast<std::size_t>(owner.body)].fixed)
+    const Body& body = scene.bodies[static_cast<std::size_t>(owner.body)];
+    if (kind == OwnerKind::immovable_body && !body.immovable())
+      fail(where + "/body", describe(value["body"]) + ", a body that impacts move", "a fixed or kinematic body");
+    if (kind != OwnerKind::body && kind != OwnerKind::immovable_body && body.fixed)
       fail(where + "/body", "the fixed body " + describe(value["body"]), "a moving body");
-    if (kind == OwnerKind::free_body && scene.bodies[static_cast<std::size_t>(owner.body)].kinematic)
+    if (kind == OwnerKind::free_body && body.kinematic)
       fail(where + "/body", "the kinematic body " + describe(value["body"]), "a dynamic body");
   }
   if (value.contains("material")) {

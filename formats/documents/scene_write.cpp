@@ -92,6 +92,8 @@ void writeBody(JsonWriter& out, const Body& body) {
   if (!body.fixed || body.orientation.coeffs() != Quat::Identity().coeffs())
     out.members("orientation", body.orientation);
   if (!body.fixed) out.members("velocity", body.velocity, "angular_velocity", body.angular_velocity);
+  if (!body.surface_velocity.isZero(0)) out.members("surface_velocity", body.surface_velocity);
+  if (!body.surface_angular_velocity.isZero(0)) out.members("surface_angular_velocity", body.surface_angular_velocity);
 }
 
 void writeBound(JsonWriter& out, const char* member, const std::vector<double>& bound) {

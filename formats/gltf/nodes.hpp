@@ -63,9 +63,12 @@ struct PhysicsNode {
   Vec3 scale = Vec3::Ones();
   std::optional<Moving> motion;
   std::optional<Collider> collider;
+  /// Of its moving surface, in the axes of the node and about its origin: ours, in the extras of the node. m/s, rad/s.
+  Vec3 surface_velocity = Vec3::Zero(), surface_angular_velocity = Vec3::Zero();
   bool animated = false;  ///< itself, or a node above that it moves along with
   std::vector<PhysicsNode> children;
 
+  bool surfaceMoves() const { return !surface_velocity.isZero(0) || !surface_angular_velocity.isZero(0); }
   /// "node 'door' (/nodes/3)", for messages.
   std::string label() const;
 };

@@ -35,6 +35,14 @@ gltf::Moving movingOf(const Body& body, const BodyModel& model) {
   return out;
 }
 
+/// Of a node that lies at `away` and is turned to by `to_node` from where the velocities are written, and of those below it.
+void setSurface(PhysicsNode& node, const Vec3& away, const Quat& to_node, const Vec3& velocity, const Vec3& spin) {
+  node.surface_velocity = to_node * (velocity + spin.cross(away));
+  node.surface_angular_velocity = to_node * spin;
+  for (PhysicsNode& child : node.children)
+    setSurface(child, child.translation, child.rotation.conjugate(), node.surface_velocity, node.surface_angular_velocity);
+}
+
 }  // namespace
 
 void ColliderAdder::add(const Shape& shape) const { shapes::formatOf(shape).collider(*this, shape); }
@@ -70,6 +78,9 @@ gltf::PhysicsNode physicsNodeOf(const Scene& scene, int index, const BodyModel& 
       body.material.empty() ? static_cast<int>(scene.materials.size()) : materialIndex(scene, body.material);
   ColliderAdder{node, body.name, material, meshes}.add(body.shape);
   setFilter(node, body.collision_filter);
+  if (body.surfaceMoves())  // an infinite plane's node lies elsewhere, and is turned
+    setSurface(node, body.orientation.conjugate() * (node.translation - body.position), node.rotation.conjugate() * body.orientation,
+               body.surface_velocity, body.surface_angular_velocity);
   return node;
 }
 

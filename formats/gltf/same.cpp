@@ -102,6 +102,20 @@ bool hasPhysics(const PhysicsNode& node) {
   return false;
 }
 
+/// Of an infinite plane, which may lie anywhere in itself, where it is nearest to the origin.
+void saySurface(const PhysicsNode& node, Sayings& out) {
+  const Vec3 &velocity = node.surface_velocity, &spin = node.surface_angular_velocity;
+  Vec3 to = Vec3::Zero();
+  if (isInfinitePlane(node)) {
+    const Vec3 normal = node.rotation * Vec3::UnitZ();
+    to = node.rotation.conjugate() * Vec3(normal.dot(node.translation) * normal - node.translation);
+  }
+  out.word("moving surface");
+  const double size = velocity.cwiseAbs().maxCoeff() + spin.norm() * to.norm();
+  for (const double value : Vec3(velocity + spin.cross(to))) out.number(value, size);
+  out.vector(spin);
+}
+
 void say(const PhysicsNode& node, const std::vector<FileMaterial>& materials, Sayings& out) {
   if (node.motion) sayMotion(*node.motion, out);
   if (node.collider) {
@@ -109,6 +123,7 @@ void say(const PhysicsNode& node, const std::vector<FileMaterial>& materials, Sa
     const int material = node.collider->material;
     const bool named = material >= 0 && !materials[static_cast<std::size_t>(material)].none;
     sayFilter(node.collider->filter, out);
+    if (node.surfaceMoves()) saySurface(node, out);
     out.word(named ? "of " + materials[static_cast<std::size_t>(material)].material.name : "of none");
   }
   for (const PhysicsNode& child : node.children) {

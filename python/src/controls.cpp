@@ -82,6 +82,10 @@ void bindControls(nb::module_& module) {
   bindKind(module, "orientation", "body", &orientation, "Varies the initial orientation of a body.");
   bindKind(module, "velocity", "body", &velocity, "Varies the initial velocity of a body, m/s.");
   bindKind(module, "angular_velocity", "body", &angularVelocity, "Varies the initial angular velocity, rad/s.");
+  bindKind(module, "surface_velocity", "body", &surfaceVelocity,
+           "Varies the velocity of the surface of a fixed or kinematic body, m/s, in its axes.");
+  bindKind(module, "surface_angular_velocity", "body", &surfaceAngularVelocity,
+           "Varies the angular velocity of the surface of a fixed or kinematic body, rad/s, in its axes.");
   bindKind(module, "elasticity", "material", &elasticity, "Varies the coefficient of restitution of a material.");
   bindKind(module, "friction", "material", &friction, "Varies the Coulomb coefficient of a material.");
   bindKind(module, "tangential_elasticity", "material", &tangentialElasticity,

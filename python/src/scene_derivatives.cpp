@@ -65,6 +65,11 @@ void bindFields(nb::class_<Derivative>& derivative) {
   bindRows(derivative, "velocity", &BodyDerivative::velocity, "(bodies, 3), of the velocities, m/s");
   bindRows(derivative, "angular_velocity", &BodyDerivative::angular_velocity,
            "(bodies, 3), of the angular velocities, rad/s");
+  bindRows(derivative, "surface_velocity", &BodyDerivative::surface_velocity,
+           "(bodies, 3), of the velocities of moving surfaces, m/s, axes of the shapes: by impacts, not by persistent contact; "
+           "0 for bodies that impacts move");
+  bindRows(derivative, "surface_angular_velocity", &BodyDerivative::surface_angular_velocity,
+           "(bodies, 3), of the angular velocities of moving surfaces, rad/s, axes of the shapes");
   bindRows(derivative, "inertia", &BodyDerivative::inertia,
            "(bodies, 3), of the principal moments, kg m^2; unused where the inertia is derived.");
   bindBodies(derivative, "mass", &BodyDerivative::mass, "(bodies,), kg; used where the scene gives the mass.");
@@ -118,13 +123,16 @@ void makeTangent(PyTangent* self, const PyScene& of, const NamedArrays& position
                  const NamedArrays& velocity, const NamedArrays& angular_velocity, const NamedArrays& inertia, const NamedNumbers& mass,
                  const NamedNumbers& density, const NamedArrays& size, const NamedNumbers& elasticity, const NamedNumbers& friction,
                  const NamedNumbers& tangential_elasticity, const std::optional<ArrayLike>& tilts,
-                 const std::optional<ArrayLike>& gravity) {
+                 const std::optional<ArrayLike>& gravity, const NamedArrays& surface_velocity,
+                 const NamedArrays& surface_angular_velocity) {
   const Scene& scene = of.scene();
   SceneTangent values(scene);
   setVectors(scene, values, position, &BodyDerivative::position, "position");
   setVectors(scene, values, orientation, &BodyDerivative::orientation, "orientation");
   setVectors(scene, values, velocity, &BodyDerivative::velocity, "velocity");
   setVectors(scene, values, angular_velocity, &BodyDerivative::angular_velocity, "angular_velocity");
+  setVectors(scene, values, surface_velocity, &BodyDerivative::surface_velocity, "surface_velocity");
+  setVectors(scene, values, surface_angular_velocity, &BodyDerivative::surface_angular_velocity, "surface_angular_velocity");
   setVectors(scene, values, inertia, &BodyDerivative::inertia, "inertia");
   setBodies(scene, values, mass, &BodyDerivative::mass);
   setBodies(scene, values, density, &BodyDerivative::density);
@@ -155,7 +163,8 @@ void bindSceneDerivatives(nb::module_& module) {
            nb::arg("orientation") = none, nb::arg("velocity") = none, nb::arg("angular_velocity") = none,
            nb::arg("inertia") = none, nb::arg("mass") = none, nb::arg("density") = none, nb::arg("size") = none,
            nb::arg("elasticity") = none, nb::arg("friction") = none, nb::arg("tangential_elasticity") = none,
-           nb::arg("tilts") = none, nb::arg("gravity") = none)
+           nb::arg("tilts") = none, nb::arg("gravity") = none, nb::arg("surface_velocity") = none,
+           nb::arg("surface_angular_velocity") = none)
       .def("__repr__", [](const PyTangent& self) { return "<SceneTangent of " + namesText(self.scene.scene()) + ">"; });
   bindFields(tangent);
   nb::class_<PyGradient> gradient(module, "SceneGradient",

@@ -45,6 +45,7 @@ SceneDerivative irregularDerivative(const Scene& scene, unsigned seed) {
   for (BodyDerivative& b : d.bodies) {
     fill(b.position), fill(b.orientation), fill(b.velocity), fill(b.angular_velocity), fill(b.inertia), fill(b.size);
     b.mass = uniform(random), b.density = uniform(random);
+    fill(b.surface_velocity), fill(b.surface_angular_velocity);
   }
   for (MaterialDerivative& m : d.materials) {
     m.elasticity = uniform(random), m.friction = uniform(random), m.tangential_elasticity = uniform(random);
@@ -123,7 +124,10 @@ TEST_P(EachControl, ScatterIsTheDerivativeOfTheScene) {
   };
   const Vec3 turn = logSO3(a.orientation * b.orientation.conjugate());
   const Vec3 size_a = kindOf(a.shape).dimensions(a.shape), size_b = kindOf(b.shape).dimensions(b.shape);
+  const BodyDerivative& of_floor = tangent.bodies[0];
   for (int i = 0; i < 3; ++i) {
+    expectRate(up.bodies[0].surface_velocity[i], down.bodies[0].surface_velocity[i], of_floor.surface_velocity[i]);
+    expectRate(up.bodies[0].surface_angular_velocity[i], down.bodies[0].surface_angular_velocity[i], of_floor.surface_angular_velocity[i]);
     expectRate(a.position[i], b.position[i], d.position[i]);
     expectRate(turn[i], 0, d.orientation[i]);
     expectRate(a.velocity[i], b.velocity[i], d.velocity[i]);
@@ -142,7 +146,7 @@ TEST_P(EachControl, ScatterIsTheDerivativeOfTheScene) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, EachControl, testing::Range(0, 12),
+INSTANTIATE_TEST_SUITE_P(Table, EachControl, testing::Range(0, 14),
                          [](const auto& row) { return everyControl()[static_cast<std::size_t>(row.param)].vary; });
 
 TEST(ControlKinds, EveryKindIsTested) {
@@ -155,13 +159,14 @@ TEST(ControlKinds, EveryKindIsTested) {
 
 TEST(ControlSet, AllKindsTogether) {
   const ControlSet set(thrownBox(), everyControl());
-  EXPECT_EQ(set.size(), 3 + 3 + 3 + 3 + 1 + 1 + 1 + 1 + 3 + 3 + 2 + 3);
+  EXPECT_EQ(set.size(), 3 + 3 + 3 + 3 + 3 + 3 + 1 + 1 + 1 + 1 + 3 + 3 + 2 + 3);
   EXPECT_TRUE(set.startScene().bodies[1].mass.has_value());
   EXPECT_FALSE(set.startScene().bodies[1].density.has_value());
   EXPECT_EQ(set.startScene().bodies[1].inertia.source, Inertia::Source::moments);
   EXPECT_EQ(set.startScene().tilts.size(), 1u);
   EXPECT_EQ(set.describeVariable(0), "position.x of 'box'");
-  EXPECT_EQ(set.describeVariable(12), "elasticity of 'felt'");
+  EXPECT_EQ(set.describeVariable(12), "surface_velocity.x of 'floor'");
+  EXPECT_EQ(set.describeVariable(18), "elasticity of 'felt'");
 }
 
 TEST(ControlSet, ScalesFollowTheEquations) {

@@ -66,6 +66,8 @@ std::vector<Control> everyControl() {
           orientation("box"),
           velocity("box"),
           angularVelocity("box"),
+          surfaceVelocity("floor"),
+          surfaceAngularVelocity("floor"),
           elasticity("felt"),
           friction("felt"),
           tangentialElasticity("felt"),

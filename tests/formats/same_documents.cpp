@@ -80,6 +80,8 @@ void expectSameBody(const Body& a, const Body& b) {
   expectSameNumbers(a.orientation.coeffs(), b.orientation.coeffs(), a.name + " orientation");
   expectSameNumbers(a.velocity, b.velocity, a.name + " velocity");
   expectSameNumbers(a.angular_velocity, b.angular_velocity, a.name + " angular_velocity");
+  expectSameNumbers(a.surface_velocity, b.surface_velocity, a.name + " surface_velocity");
+  expectSameNumbers(a.surface_angular_velocity, b.surface_angular_velocity, a.name + " surface_angular_velocity");
 }
 
 void expectSameLimits(const std::vector<TargetNumber>& a, const std::vector<TargetNumber>& b, const std::string& where) {

@@ -42,7 +42,7 @@ const std::string& documentWithEverything() {
     { "name": "floor", "fixed": true, "material": "wood",
       "shape": { "plane": { "normal": [0, 0.6, 0.8], "offset": -0.125 } } },
     { "name": "wall", "fixed": true, "mass": 3, "position": [7, 0, 1], "orientation": [0.6, 0, 0.8, 0],
-      "shape": { "box": { "size": [0.1, 2, 0.3] } } },
+      "shape": { "box": { "size": [0.1, 2, 0.3] } }, "surface_velocity": [0.1, -2.5, 0] },
     { "name": "ball", "fixed": false, "gravity_factor": -0.1, "collision_filter": { "systems": ["balls", "é"], "collide_with": ["balls"] }, "density": 700.5, "material": "a/b~c \"quoted\" é",
       "shape": { "sphere": { "radius": 0.1 } }, "position": [0, 0, 3] },
     { "name": "book", "notes": "the one with the torn cover", "mass": 0.4, "inertia": [0.0011, 0.0012, 0.0019], "material": "felt",
@@ -52,7 +52,8 @@ const std::string& documentWithEverything() {
     { "name": "crate", "mass": 2,
       "inertia": [[0.2, 0.01, 0.005], [0.01, 0.25, -0.02], [0.005, -0.02, 0.3]],
       "shape": { "box": { "size": [1, 1, 1] } }, "position": [-5, 0, 6] },
-    { "name": "pill", "kinematic": true, "collision_filter": { "not_collide_with": ["é"] }, "density": 1100, "shape": { "capsule": { "radius": 0.11, "height": 0.7 } }, "position": [-8, 0, 6] },
+    { "name": "pill", "kinematic": true, "collision_filter": { "not_collide_with": ["é"] }, "density": 1100, "shape": { "capsule": { "radius": 0.11, "height": 0.7 } }, "position": [-8, 0, 6],
+      "surface_velocity": [1, 2, 3], "surface_angular_velocity": [0, 0, 0.30000000000000004] },
     { "name": "can", "density": 1200, "shape": { "cylinder": { "radius": 0.12, "height": 0.9 } }, "position": [-9, 0, 6] },
     { "name": "die", "mass": 0.031, "center_of_mass": [0.013, -0.002, 0.001],
       "shape": { "hull": { "points": [
@@ -90,7 +91,9 @@ const std::string& documentWithEverything() {
     { "vary": "tilt", "body": "book", "impact": 2, "max": 0.15 },
     { "vary": "gravity", "components": ["z"] },
     { "vary": "size", "body": "hat", "components": ["0.radius", "1.height", "2.0.radius", "2.1.scale"] },
-    { "vary": "size", "body": "die", "min": 0.5 }
+    { "vary": "size", "body": "die", "min": 0.5 },
+    { "vary": "surface_velocity", "body": "wall", "components": ["y"], "max": 3 },
+    { "vary": "surface_angular_velocity", "body": "pill" }
   ],
   "constraints": [
     { "body": "book", "at": 1.4, "position": [1.9, null, 1.7], "orientation": [0.8, 0, 0.6, 0] },

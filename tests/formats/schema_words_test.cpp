@@ -169,10 +169,12 @@ TEST(SchemaWords, defaultsAreThoseOfTheProgram) {
     "materials": { "m": { "elasticity": 0.5, "friction": 0.5, "tangential_elasticity": 0,
       "combine": { "elasticity": "average", "friction": "average" } } }, "bodies": [
     { "name": "f", "shape": { "plane": { "normal": [0, 0, 1], "offset": 0 } }, "fixed": true,
-      "position": [0, 0, 0], "orientation": [1, 0, 0, 0], "velocity": [0, 0, 0], "angular_velocity": [0, 0, 0] },
+      "position": [0, 0, 0], "orientation": [1, 0, 0, 0], "velocity": [0, 0, 0], "angular_velocity": [0, 0, 0],
+      "surface_velocity": [0, 0, 0], "surface_angular_velocity": [0, 0, 0] },
     { "name": "b", "mass": 2, "fixed": false, "shape": { "compound": [ { "position": [0, 0, 0], "orientation": [1, 0, 0, 0],
         "hull": { "points": [[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]], "scale": 1 } } ] },
-      "position": [0, 0, 0], "orientation": [1, 0, 0, 0], "velocity": [0, 0, 0], "angular_velocity": [0, 0, 0] } ],
+      "position": [0, 0, 0], "orientation": [1, 0, 0, 0], "velocity": [0, 0, 0], "angular_velocity": [0, 0, 0],
+      "surface_velocity": [0, 0, 0], "surface_angular_velocity": [0, 0, 0] } ],
     "controls": [ { "vary": "velocity", "body": "b", "components": ["x", "y", "z"], "weight": 1 } ] })";
   Document a = parseDocument(least, "least"), b = parseDocument(whole, "whole");
   EXPECT_EQ(b.controls[0].components, (std::vector<std::string>{"x", "y", "z"}));

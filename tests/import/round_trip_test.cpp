@@ -107,6 +107,38 @@ Shape flattened(const Shape& shape) {
   return flat;
 }
 
+// Of surfaces that move the extensions say nothing.
+void standStill(Body& body) { body.surface_velocity.setZero(), body.surface_angular_velocity.setZero(); }
+
+Vec3 surfaceVelocityAt(const Body& body, const Vec3& p) {
+  const Vec3 there = body.orientation.conjugate() * (p - body.position);
+  return body.orientation * (body.surface_velocity + body.surface_angular_velocity.cross(there));
+}
+
+// Nodes say by themselves how their surfaces move, wherever those of planes and of parts come to lie.
+TEST(RoundTrip, WithoutTheDocumentSurfacesMoveAsTheyDid) {
+  const Document document = documentOfEveryKind();
+  json file = exportedJson(document);
+  for (json& scene : file["scenes"]) scene.erase("extras");
+  const Imported again = importJson(file);
+  const auto expectSameAt = [&](const std::string& name, const Body& found) {
+    const Body& expected = document.scene.bodies[static_cast<std::size_t>(bodyIndex(document.scene, name))];
+    ASSERT_TRUE(expected.surfaceMoves());
+    for (const Vec3& p : {Vec3(0.3, -0.2, 1), Vec3(4, 8, -1)}) {
+      const Vec3 found_there = surfaceVelocityAt(found, p), there = surfaceVelocityAt(expected, p);
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(found_there[i], there[i], 1e-12) << name;
+    }
+  };
+  for (const char* name : {"cylinder", "wall", "slope"}) expectSameAt(name, bodyIn(again, name));
+  int parts = 0;
+  for (const Body& body : again.document.scene.bodies) {
+    if (body.name.starts_with("shed")) expectSameAt("shed", body), ++parts;
+    if (!body.immovable()) EXPECT_FALSE(body.surfaceMoves()) << body.name;
+  }
+  EXPECT_GT(parts, 1);
+  EXPECT_FALSE(bodyIn(again, "floor").surfaceMoves());
+}
+
 // What other programs read: the physics of the nodes alone.
 TEST(RoundTrip, WithoutExtrasBodiesAreTheSameInTheWorld) {
   const Document document = documentOfEveryKind();
@@ -120,6 +152,7 @@ TEST(RoundTrip, WithoutExtrasBodiesAreTheSameInTheWorld) {
     if (body.fixed) continue;
     Body expected = body;
     expected.shape = flattened(body.shape);
+    standStill(expected);
     if (body.material.empty()) expected.material = "material-3";  // the one after the last, which has no name
     expectSameBody(bodyIn(again, body.name), expected);
     ++moving;
@@ -141,6 +174,7 @@ TEST(RoundTrip, WithoutExtrasFixedBodiesAreWhereTheyWere) {
   const auto& bodies = document.scene.bodies;
   for (const char* name : {"post", "drum", "wall", "stone", "terrain"}) {
     Body expected = bodies[static_cast<std::size_t>(bodyIndex(document.scene, name))];
+    standStill(expected);
     if (expected.material.empty()) expected.material = "material-3";
     const ShapeKind& kind = kindOf(expected.shape);
     const bool below = kind.dimensions(expected.shape).size() == 1;  // a scale: on a node of its own

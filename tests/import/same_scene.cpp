@@ -79,6 +79,8 @@ void expectSameBytes(const Body& a, const Body& b) {
   expectSameBits(a.orientation.coeffs(), b.orientation.coeffs(), "orientation");
   expectSameBits(a.velocity, b.velocity, "velocity");
   expectSameBits(a.angular_velocity, b.angular_velocity, "angular velocity");
+  expectSameBits(a.surface_velocity, b.surface_velocity, "surface velocity");
+  expectSameBits(a.surface_angular_velocity, b.surface_angular_velocity, "surface angular velocity");
 }
 
 bool hasSurface(const Shape& shape) {
@@ -156,6 +158,8 @@ void expectSameBody(const Body& found, const Body& expected, double floats) {
   expectEntries(found.orientation.toRotationMatrix(), expected.orientation.toRotationMatrix(), 1e-13, "orientation");
   EXPECT_EQ(found.kinematic, expected.kinematic);
   EXPECT_EQ(found.collision_filter, expected.collision_filter);
+  expectEntries(found.surface_velocity, expected.surface_velocity, 1e-13, "surface velocity");
+  expectEntries(found.surface_angular_velocity, expected.surface_angular_velocity, 1e-13, "surface angular velocity");
   if (expected.fixed) return;
   EXPECT_EQ(found.gravity_factor, expected.gravity_factor);
   expectEntries(found.velocity, expected.velocity, 1e-13, "velocity");

@@ -130,6 +130,9 @@ Document documentOfEveryKind() {
     return *std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == name; });
   };
   named("cylinder").kinematic = true;
+  for (const char* belt : {"cylinder", "wall", "slope", "shed"}) {
+    named(belt).surface_velocity = {1.0 / 3, -0.2, 0.1}, named(belt).surface_angular_velocity = {0.3, 2.0 / 7, -1};
+  }
   named("capsule").gravity_factor = -1.0 / 3;
   named("sphere").collision_filter = {{"b\xC3\xA4lle", "small"}, {}, {"walls", "drums"}};
   named("hat <1> \"x\"").collision_filter = {{}, {"small"}, {}};
@@ -182,6 +185,8 @@ class RandomBodies {
     Body out = bodyOf(name, shape(0), vector(20));
     out.orientation = turn();
     out.fixed = whole(4) == 0;
+    if (out.fixed && out.position.x() > 0)
+      out.surface_velocity = 0.3 * out.position, out.surface_angular_velocity = {out.position.y(), 0.1, out.position.x()};
     if (out.fixed) return out;
     out.velocity = vector(10), out.angular_velocity = vector(20);
     (whole(2) == 0 ? out.mass : out.density) = real(0.1, 2000);

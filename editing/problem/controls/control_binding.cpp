@@ -54,6 +54,10 @@ ControlOwner findOwner(Scene& scene, const Control& control, const ControlKind& 
     throw InputError(where + "/body", std::string(kind.word) + " cannot vary: body '" + control.body +
                                           "' is kinematic, expected a dynamic body");
   }
+  if (kind.owner == OwnerKind::immovable_body && !scene.bodies[owner.body].immovable()) {
+    throw InputError(where + "/body", std::string(kind.word) + " cannot vary: impacts move body '" + control.body +
+                                          "', expected a fixed or kinematic body");
+  }
   if (kind.owner == OwnerKind::impact) {
     if (control.impact < 1) {
       throw InputError(where + "/impact", "found " + std::to_string(control.impact) + ", expected 1 or more");

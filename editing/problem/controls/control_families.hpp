@@ -9,7 +9,7 @@
 namespace carom::editing_detail {
 
 extern const ControlKind kPositionControl, kOrientationControl, kVelocityControl, kAngularVelocityControl,
-    kGravityControl;  // controls_of_motion.cpp
+    kSurfaceVelocityControl, kSurfaceAngularVelocityControl, kGravityControl;  // controls_of_motion.cpp
 extern const ControlKind kElasticityControl, kFrictionControl,
     kTangentialElasticityControl;                                      // controls_of_material.cpp
 extern const ControlKind kMassControl, kInertiaControl, kSizeControl;  // controls_of_body.cpp

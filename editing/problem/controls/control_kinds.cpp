@@ -12,6 +12,8 @@ const ControlKind* const kTable[] = {
     &kOrientationControl,
     &kVelocityControl,
     &kAngularVelocityControl,
+    &kSurfaceVelocityControl,
+    &kSurfaceAngularVelocityControl,
     &kElasticityControl,
     &kFrictionControl,
     &kTangentialElasticityControl,

@@ -10,8 +10,8 @@
 
 namespace carom::editing_detail {
 
-/// Whose numbers a kind of control varies; a free body is one that impacts move.
-enum class OwnerKind { body, moving_body, free_body, material, impact, scene };
+/// Whose numbers a kind of control varies; a free body is one that impacts move, an immovable one is fixed or kinematic.
+enum class OwnerKind { body, moving_body, free_body, immovable_body, material, impact, scene };
 
 /// The owner, as indices into a scene (-1 where it does not apply).
 struct ControlOwner {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Controls of how things start to move: position, orientation, velocity, angular velocity; and gravity.
+// Controls of how things start to move: position, orientation, velocity, angular velocity, those of surfaces; and gravity.
 //
 // Orientation is a world rotation vector u applied on the left of the written orientation: R = exp([u]x) R_written. Its
 // start is 0. A change of u turns the body by theta = J_l(u) du, so that the derivative with respect to u is J_l(u)^T theta_bar.
@@ -20,10 +20,18 @@ constexpr auto kVelocity = [](auto& scene, const ControlOwner& o) -> auto& { ret
 constexpr auto kAngularVelocity = [](auto& scene, const ControlOwner& o) -> auto& {
   return scene.bodies[o.body].angular_velocity;
 };
+constexpr auto kSurfaceVelocity = [](auto& scene, const ControlOwner& o) -> auto& {
+  return scene.bodies[o.body].surface_velocity;
+};
+constexpr auto kSurfaceSpin = [](auto& scene, const ControlOwner& o) -> auto& {
+  return scene.bodies[o.body].surface_angular_velocity;
+};
 constexpr auto kGravity = [](auto& scene, const ControlOwner&) -> auto& { return scene.gravity; };
 using Position = FieldNumbers<kPosition>;
 using Velocity = FieldNumbers<kVelocity>;
 using AngularVelocity = FieldNumbers<kAngularVelocity>;
+using SurfaceVelocity = FieldNumbers<kSurfaceVelocity>;
+using SurfaceSpin = FieldNumbers<kSurfaceSpin>;
 using Gravity = FieldNumbers<kGravity>;
 
 template <double NaturalScales::*kScale>
@@ -100,6 +108,28 @@ const ControlKind kAngularVelocityControl{
     .scatter = AngularVelocity::scatter,
     .scale = bodyScale<&NaturalScales::angular_velocity>,
     .is_velocity = true,
+};
+
+const ControlKind kSurfaceVelocityControl{
+    .word = "surface_velocity",
+    .owner = OwnerKind::immovable_body,
+    .components = xyzComponents,
+    .get = SurfaceVelocity::get,
+    .set = SurfaceVelocity::set,
+    .gather = SurfaceVelocity::gather,
+    .scatter = SurfaceVelocity::scatter,
+    .scale = bodyScale<&NaturalScales::velocity>,
+};
+
+const ControlKind kSurfaceAngularVelocityControl{
+    .word = "surface_angular_velocity",
+    .owner = OwnerKind::immovable_body,
+    .components = xyzComponents,
+    .get = SurfaceSpin::get,
+    .set = SurfaceSpin::set,
+    .gather = SurfaceSpin::gather,
+    .scatter = SurfaceSpin::scatter,
+    .scale = bodyScale<&NaturalScales::angular_velocity>,
 };
 
 const ControlKind kGravityControl{

@@ -110,7 +110,20 @@ class Builder {
     body.shape = std::move(*shape);
     body.position = world.translation;
     body.orientation = orientation;
+    setSurface(body, node, product(world.rotation.conjugate(), orientation));
     entries_.push_back(Entry{check(std::move(body), node), &node});
+  }
+
+  /// Of a node that the shape is turned to by `shape_to_node`.
+  void setSurface(Body& body, const PhysicsNode& node, const Quat& shape_to_node) {
+    if (!node.surfaceMoves()) return;
+    if (!body.immovable()) {
+      report(node, "its moving surface is ignored: impacts move the body");
+      return;
+    }
+    const Quat to_shape = shape_to_node.conjugate();
+    body.surface_velocity = turned(to_shape, node.surface_velocity);
+    body.surface_angular_velocity = turned(to_shape, node.surface_angular_velocity);
   }
 
   /// A lone shape at the node's origin gives the body its axes; others become parts.
@@ -138,6 +151,7 @@ class Builder {
     } catch (const InputError& error) {
       throw errorAt(draft.node, error.message());
     }
+    setSurface(body, draft.node, shape_to_node);
     return Entry{check(std::move(body), draft.node), &draft.node};
   }
 

@@ -101,6 +101,10 @@ class NodeReader {
     }
     node.translation = zUp(node.translation), node.rotation = zUp(node.rotation), node.scale = swappedSizes(node.scale);
     if (const auto physics = extensionOf(place, kRigidBodies)) readPhysicsOf(node, *physics);
+    if (const auto extras = caromExtrasOf(place)) {
+      node.surface_velocity = zUp(extras->findVector("surface_velocity").value_or(Vec3::Zero()));
+      node.surface_angular_velocity = zUp(extras->findVector("surface_angular_velocity").value_or(Vec3::Zero()));
+    }
     reportOthers(node, place);
     if (const auto children = place.find("children"))
       for (std::size_t i = 0; i < children->size(); ++i)

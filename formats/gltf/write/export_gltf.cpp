@@ -103,7 +103,10 @@ class Writer {
     gltf::PhysicsNode physics = physicsNodeOf(scene_, body, (*motion_.models)[body], surfaces_);
     if (kindOf(scene_.bodies[body].shape).endless) {  // drawn as a square around the motion
       const Vec3 normal = gltf::turned(physics.rotation, Vec3::UnitZ()), centre = extent_.center();
+      const Vec3 was = physics.translation;
       physics.translation = centre + normal.dot(physics.translation - centre) * normal;
+      physics.surface_velocity +=
+          physics.surface_angular_velocity.cross(gltf::turned(physics.rotation.conjugate(), physics.translation - was));
     }
     tinygltf::Node node = nodeOf(physics);
     node.mesh = look_.body(body);
@@ -118,6 +121,7 @@ class Writer {
     const Vec3 scale = gltf::swappedSizes(physics.scale);
     if (scale != Vec3::Ones()) node.scale = {scale.x(), scale.y(), scale.z()};
     if (physics.motion || physics.collider) node.extensions["KHR_physics_rigid_bodies"] = physics_.extensionOf(physics);
+    if (physics.surfaceMoves()) node.extras = surfaceExtrasOf(physics);
     for (const gltf::PhysicsNode& child : physics.children) {
       const tinygltf::Node below = nodeOf(child);
       node.children.push_back(append(model_.nodes, below));

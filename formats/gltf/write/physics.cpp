@@ -111,6 +111,11 @@ Value filterOf(const CollisionFilter& filter) {
 
 }  // namespace
 
+Value surfaceExtrasOf(const gltf::PhysicsNode& node) {
+  return Value(Object{{"carom", Value(Object{{"surface_velocity", vectorOf(node.surface_velocity)},
+                                             {"surface_angular_velocity", vectorOf(node.surface_angular_velocity)}})}});
+}
+
 int PhysicsWriter::indexOf(const gltf::ColliderShape& shape) {
   const auto [entry, added] = known_.emplace(std::visit(Numbers{}, shape), static_cast<int>(shapes_.size()));
   if (added) shapes_.push_back(shape);

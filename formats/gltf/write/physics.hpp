@@ -14,6 +14,9 @@ class Value;
 
 namespace carom::formats_detail {
 
+/// The extras of a node whose surface moves, for which the extensions have no words.
+tinygltf::Value surfaceExtrasOf(const gltf::PhysicsNode& node);
+
 /// Writes the document-wide parts of KHR_physics_rigid_bodies, KHR_implicit_shapes and OMI_physics_gravity, and the
 /// extensions of nodes, which refer to them. Equal shapes are written once.
 class PhysicsWriter {

@@ -13,7 +13,7 @@ import { numberField, scrubs } from '../number_field.js';
 /** @typedef {import('../types.js').DocumentState} DocumentState */
 /** @typedef {import('../commands.js').Commands} Commands */
 
-const componentsOf = { position: ['x', 'y', 'z'], velocity: ['x', 'y', 'z'], angular_velocity: ['x', 'y', 'z'], orientation: ['x', 'y', 'z'], gravity: ['x', 'y', 'z'], inertia: ['x', 'y', 'z'] };
+const componentsOf = { position: ['x', 'y', 'z'], velocity: ['x', 'y', 'z'], angular_velocity: ['x', 'y', 'z'], surface_velocity: ['x', 'y', 'z'], surface_angular_velocity: ['x', 'y', 'z'], orientation: ['x', 'y', 'z'], gravity: ['x', 'y', 'z'], inertia: ['x', 'y', 'z'] };
 
 /** @param {Control} control */
 export function controlName({ vary, body, material, impact }) {
