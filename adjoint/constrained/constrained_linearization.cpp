@@ -154,6 +154,7 @@ Eigen::VectorXd ConstrainedColumns::tangent(const StateDerivative& start, const 
       d.segment<6>(p.pose) << start_of.x, start_of.theta;
       d.segment<6>(p.velocity) << start_of.v, start_of.L;
     }
+    if (p.surface >= 0) d.segment<6>(p.surface) << body.surface_velocity, body.surface_angular_velocity;
     d.segment(p.sizes, p.size_count) = body.size;
   }
   const auto of = [&](int m) { return m < 0 ? 0 : dscene.materials[constrainedIndex(m)].friction; };
@@ -181,6 +182,10 @@ StateDerivative ConstrainedColumns::pullback(const Eigen::VectorXd& bar, SceneGr
       Eigen::Matrix<double, 12, 1> at_start;
       at_start << bar.segment<6>(p.pose), bar.segment<6>(p.velocity);
       carriedPullback(*carrier, at_start, scene_bar);
+    }
+    if (p.surface >= 0) {
+      body.surface_velocity += bar.segment<3>(p.surface);
+      body.surface_angular_velocity += bar.segment<3>(p.surface + 3);
     }
     if (p.size_count > 0) body.size += bar.segment(p.sizes, p.size_count);
   }

@@ -7,13 +7,16 @@ Support supportOf(const Motion& motion, int body, double t) {
   const auto b = static_cast<std::size_t>(body);
   const Arc& arc = motion.world_lines[b].arcs.back();
   Support support;
+  const Body& written = motion.scene->bodies[b];
+  support.has_belt = written.surfaceMoves();
+  support.surface_velocity = written.surface_velocity, support.surface_angular_velocity = written.surface_angular_velocity;
+  support.center = (*motion.models)[b].center;
   if (arc.stays() || !(*motion.models)[b].kinematic) {
     const Kinematics k = arc.kinematicsOf(arc.startState());
     support.pose = {k.x, k.R};
     return support;
   }
   support.arc = std::make_shared<const Arc>(arc);
-  support.center = (*motion.models)[b].center;
   support.pose = support.poseAt(t);
   return support;
 }

@@ -6,6 +6,7 @@
 #include "adjoint/flight/trajectory.hpp"
 #include "adjoint/motion/motion.h"
 #include "adjoint/numeric/dual.hpp"
+#include "adjoint/scene/surface_motion.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -21,13 +22,10 @@ struct SupportInstant {
   V3<S> surface_angular_velocity = V3<S>::Zero();  ///< rad/s, in shape axes, about the shape's origin
   V3<S> center = V3<S>::Zero();            ///< m, center of mass in shape axes
 
-  /// Of its material at a place p on a face with normal n: V + W x (p - x) + P B, with P = 1 - n n^T and
-  /// B = R b + (R w) x (p - X), where X is the shape's origin.
+  /// Of its material at a place p on a face with normal n: V + W x (p - x) + beta, see SurfaceMotion.
   V3<S> velocityAt(const V3<S>& p, const V3<S>& n) const {
     const V3<S> u = v + w.cross(V3<S>(p - x));
-    if (!has_belt) return u;
-    const V3<S> B = beltAt(p);
-    return u + B - n * n.dot(B);
+    return has_belt ? V3<S>(u + SurfaceMotion<S>{surface_velocity, surface_angular_velocity, R, origin()}.at(p, n)) : u;
   }
   /// d/dt of that, as place and normal go at p' and n'.
   V3<S> accelerationAt(const V3<S>& p, const V3<S>& n, const V3<S>& p_rate, const V3<S>& n_rate) const {

@@ -199,18 +199,24 @@ void doubtStart(Reliability& reliability, int body, const std::string& why) {
 
 // On a kinematic body at rest paths are those on fixed ground: they have no derivative by its velocities.
 void Reliability::passStill(const Motion& motion, int body, const Arc& arc) {
-  std::vector<int> grounds;
+  const std::vector<Body>& bodies = motion.scene->bodies;
+  const auto stays = [&](int with, bool stands, bool surface_stands) {
+    const Body& ground = bodies[static_cast<std::size_t>(with)];
+    const std::string what = "'" + bodies[static_cast<std::size_t>(body)].name + "' stays in contact with '" + ground.name + "', ";
+    if (surface_stands && ground.immovable() && std::find(surfaces.begin(), surfaces.end(), with) == surfaces.end()) {
+      surfaces.push_back(with);
+      if (surface_message.empty())
+        surface_message = what + "whose surface does not move: the derivative with respect to its velocity is not known there";
+    }
+    if (stands && ground.kinematic)
+      doubtStart(*this, with, what + "a kinematic body at rest: the derivative with respect to its velocities is not known there");
+  };
   if (const ConstrainedPath* path = arc.trajectory().constrained()) {
     for (std::size_t k = 0; k < path->contacts().size(); ++k)
-      if (!path->scene().with[k].moves()) grounds.push_back(path->contacts()[k].with);
+      stays(path->contacts()[k].with, !path->scene().with[k].moves(), !path->scene().with[k].has_belt);
   } else if (arc.closedForm()) {
-    grounds.push_back(arc.closedForm()->face);
+    stays(arc.closedForm()->face, true, true);
   }
-  const std::vector<Body>& bodies = motion.scene->bodies;
-  for (const int with : grounds)
-    if (const Body& ground = bodies[static_cast<std::size_t>(with)]; ground.kinematic)
-      doubtStart(*this, with, "'" + bodies[static_cast<std::size_t>(body)].name + "' stays in contact with '" + ground.name +
-                                  "', a kinematic body at rest: the derivative with respect to its velocities is not known there");
 }
 
 // Where it came to rest, what varies has moved it. Where it was put there, nothing does but by its own velocity and spin.
@@ -268,6 +274,7 @@ void doubt(Reliability& reliability, const std::vector<int>& doubtful, int asked
 }  // namespace
 
 void Reliability::askFriction(int material) { doubt(*this, frictions, material, friction_message); }
+void Reliability::askSurface(int body) { doubt(*this, surfaces, body, surface_message); }
 void Reliability::askVelocity(int body) { doubt(*this, beginning, body, beginning_message); }
 void Reliability::askPlace(int body) { doubt(*this, seams, body, seam_message); }
 

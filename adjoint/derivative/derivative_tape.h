@@ -74,6 +74,10 @@ struct Reliability {
   /// zero slip, so that it is one-sided, along the slope.
   std::vector<int> beginning;
   std::string beginning_message; ///< reason; empty if there are none
+  /// Fixed and kinematic bodies with respect to whose surface velocities the derivative is unreliable: others stay in contact
+  /// with them, and what such contact has of a surface that begins to move is not followed.
+  std::vector<int> surfaces;
+  std::string surface_message; ///< reason; empty if there are none
   /// Fixed bodies with respect to whose individual pose or size the derivative is unreliable: contacts are at a seam
   /// between them.
   std::vector<int> seams;
@@ -94,6 +98,8 @@ struct Reliability {
   void askVelocity(int body);
   /// The same for its spin.
   void askSpin(int body) { askVelocity(body); }
+  /// Requests the derivative with respect to the surface velocity or surface angular velocity of a body, too.
+  void askSurface(int body);
   /// Requests the derivative with respect to the pose or size of a body, too.
   void askPlace(int body);
 

@@ -11,6 +11,7 @@
 #include "adjoint/impact/tilt.hpp"
 #include "adjoint/impact/tilt_frame.hpp"
 #include "adjoint/impact/double_double_impact.hpp"
+#include "adjoint/motion/contact_surface.hpp"
 #include "adjoint/motion/guard.hpp"
 
 namespace carom::adjoint_detail {
@@ -19,6 +20,17 @@ namespace {
 using Pass = EventPass<double>;
 using Part = Pass::Part;
 using Vec7 = Pass::Vec7;
+
+// Of the body that impacts do not move, if one is such.
+std::optional<SurfacePart<double>> surfaceOf(const Motion& motion, const Event& event, const Contact& c) {
+  for (const int body : {c.a, c.b}) {
+    if (!motion.scene->bodies[static_cast<std::size_t>(body)].immovable()) continue;
+    const Pose pose = poseBefore(motion, event, body);
+    return SurfacePart<double>{body, participantOf(event, body), body == c.a ? 1.0 : -1.0, surfaceMotionOf(motion, body, pose),
+                               pose.R * (*motion.models)[static_cast<std::size_t>(body)].center, c.at.point, c.at.normal};
+  }
+  return std::nullopt;
+}
 
 Part partOf(const Motion& motion, const Event& event, const Contact& c, double weight) {
   Part part;
@@ -34,6 +46,7 @@ Part partOf(const Motion& motion, const Event& event, const Contact& c, double w
     part.size_b = std::move(J.size_b);
     keepPlaceOnRim(motion, event, c, part);
   }
+  part.surface = surfaceOf(motion, event, c);
   part.tilted = c.tilt_a >= 0 || c.tilt_b >= 0;
   if (part.tilted)
     part.tilt = tiltJacobian<double>(c.at.normal, tiltOf(*motion.scene, c.tilt_a), tiltOf(*motion.scene, c.tilt_b));
@@ -107,6 +120,28 @@ Vec7 contactTangent(const Part& part, const Event& event, const std::vector<Stat
   if (part.size_a.cols() > 0) d += part.size_a * dscene.bodies[static_cast<std::size_t>(part.a.body)].size;
   if (part.size_b.cols() > 0) d += part.size_b * dscene.bodies[static_cast<std::size_t>(part.b.body)].size;
   return d;
+}
+
+// d(surface velocity) of a contact where d(gap, normal, point) is `contact`.
+Vec3 surfaceTangent(const Part& part, const Vec7& contact, const std::vector<StateDerivative>& before, const SceneTangent& dscene,
+                    const std::vector<BodyModelDerivative>& dmodel) {
+  if (!part.surface) return Vec3::Zero();
+  const SurfacePart<double>& surface = *part.surface;
+  const BodyDerivative& dbody = dscene.bodies[static_cast<std::size_t>(surface.body)];
+  SurfaceMotion<double>::Derivative d;
+  d.velocity = dbody.surface_velocity;
+  d.spin = dbody.surface_angular_velocity;
+  d.normal = contact.segment<3>(1);
+  d.point = contact.tail<3>();
+  d.position = dbody.position;
+  d.theta = dbody.orientation;
+  if (surface.participant >= 0) {
+    const StateDerivative& state = before[static_cast<std::size_t>(surface.participant)];
+    d.theta = state.theta;
+    d.position = state.x - state.theta.cross(surface.center) -
+                 surface.motion.R * dmodel[static_cast<std::size_t>(surface.body)].center;
+  }
+  return surface.sign * surface.motion.tangent(surface.point, surface.normal, d);
 }
 
 }  // namespace
@@ -183,11 +218,13 @@ EventLinearization::Tangent EventLinearization::tangent(const std::vector<StateD
     dmodels.push_back(dmodel[static_cast<std::size_t>(event().participants[i].body)]);
   }
   std::vector<Vec7> dcontact;
+  std::vector<Vec3> dsurface;
   std::vector<PairCoefficients> dpair;
   for (std::size_t k = 0; k < parts().size(); ++k) {
     const Part& part = parts()[k];
     const Contact& c = event().contacts[k];
     Vec7 d = contactTangent(part, event(), moved, dscene, dmodel);
+    dsurface.push_back(surfaceTangent(part, d, moved, dscene, dmodel));
     if (part.tilted) {
       Vec7 by;
       by << d.segment<3>(1), Vec2(0, 0), Vec2(0, 0);
@@ -201,7 +238,7 @@ EventLinearization::Tangent EventLinearization::tangent(const std::vector<StateD
     };
     dpair.push_back(part.rules.tangent(dmaterial(part.material_a), dmaterial(part.material_b)));
   }
-  out.after = hasLaw() ? impactTangent(impact().inputs(), wide(), moved, dcontact, dpair, dmodels) : moved;
+  out.after = hasLaw() ? impactTangent(impact().inputs(), wide(), moved, dcontact, dsurface, dpair, dmodels) : moved;
   const std::vector<std::size_t>& lasting = projection().lasting();
   if (!lasting.empty()) {
     Eigen::VectorXd gaps(lasting.size());

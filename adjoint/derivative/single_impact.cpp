@@ -2,6 +2,7 @@
 #include "adjoint/derivative/single_impact.hpp"
 
 #include "adjoint/impact/single_laws.hpp"
+#include "adjoint/motion/contact_surface.hpp"
 #include "adjoint/motion/guard.hpp"
 
 namespace carom::adjoint_detail {
@@ -50,7 +51,13 @@ SingleImpact::SingleImpact(const Motion& motion, const Event& event, const std::
   material_a_ = materials[static_cast<std::size_t>(c.a)];
   material_b_ = materials[static_cast<std::size_t>(c.b)];
   rules_ = rulesOf(materialAt(*motion.scene, material_a_), materialAt(*motion.scene, material_b_));
-  problem_ = {Mat3::Zero(), Vec3::Zero(), c.impulse_normal, c.pair};
+  problem_ = {Mat3::Zero(), c.surface_velocity, c.impulse_normal, c.pair};
+  for (const int body : {c.a, c.b}) {
+    if (!motion.scene->bodies[static_cast<std::size_t>(body)].immovable()) continue;
+    const Pose pose = poseBefore(motion, event, body);
+    surface_ = {body, participantOf(event, body), body == c.a ? 1.0 : -1.0, surfaceMotionOf(motion, body, pose),
+                pose.R * (*motion.models)[static_cast<std::size_t>(body)].center, c.at.point, c.at.normal};
+  }
   for (std::size_t i = 0; i < count_; ++i) {
     const Participant& p = event.participants[i];
     const BodyModel& model = (*motion.models)[static_cast<std::size_t>(p.body)];
@@ -142,6 +149,7 @@ void SingleImpact::throughLaw(const States& after_bar, Pair& bar, SceneGradient&
       model.addInertiaBar(-(AR.transpose() * A_bar * AR));
     }
   }
+  if (surface_) surfacePullback(problem.u, contact, bar, scene_bar, model_bar);
   const Vec12 pose = J_.pose.transpose() * contact;
   scatter(pose, J_.size_a.transpose() * contact, J_.size_b.transpose() * contact, bar, scene_bar);
   MaterialDerivative unused;
@@ -149,6 +157,26 @@ void SingleImpact::throughLaw(const States& after_bar, Pair& bar, SceneGradient&
     return m < 0 ? unused : scene_bar.materials[static_cast<std::size_t>(m)];
   };
   rules_.pullback(problem.pair[0], slot(material_a_), slot(material_b_));
+}
+
+// As EventPass::surfacePullback has it.
+void SingleImpact::surfacePullback(const Vec3& u_bar, Vec7& contact, Pair& bar, SceneGradient& scene_bar,
+                                   std::vector<BodyModelDerivative>& model_bar) const {
+  const auto d = surface_->motion.pullback(surface_->point, surface_->normal, surface_->sign * u_bar);
+  BodyDerivative& body = scene_bar.bodies[static_cast<std::size_t>(surface_->body)];
+  body.surface_velocity += d.velocity;
+  body.surface_angular_velocity += d.spin;
+  contact.segment<3>(1) += d.normal;
+  contact.tail<3>() += d.point;
+  if (surface_->participant < 0) {
+    body.position += d.position;
+    body.orientation += d.theta;
+    return;
+  }
+  StateDerivative& before = bar[static_cast<std::size_t>(surface_->participant)];
+  before.x += d.position;
+  before.theta += d.theta - surface_->center.cross(d.position);
+  model_bar[static_cast<std::size_t>(surface_->body)].center -= surface_->motion.R.transpose() * d.position;
 }
 
 SingleImpact::Pair SingleImpact::pullback(const States& after_bar, const States& read_bar, double time_bar,

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "adjoint/impact/contact_part.hpp"
 #include "adjoint/motion/motion.h"
 #include "adjoint/impact/law.hpp"
 #include "adjoint/motion/pair_rules.hpp"
@@ -44,11 +45,15 @@ class SingleImpact {
 
   void throughLaw(const States& after_bar, Pair& bar, SceneGradient& scene_bar,
                   std::vector<BodyModelDerivative>& model_bar) const;
+  // Of the velocity of the moving surface; adds to that of the contact.
+  void surfacePullback(const Vec3& u_bar, Vec7& contact, Pair& bar, SceneGradient& scene_bar,
+                       std::vector<BodyModelDerivative>& model_bar) const;
   // Adjoints of poses and dimensions, to the participants or to the scene.
   template <class SizeA, class SizeB>
   void scatter(const Vec12& pose, const SizeA& size_a, const SizeB& size_b, Pair& bar, SceneGradient& scene_bar) const;
 
   Side a_, b_;
+  std::optional<SurfacePart<double>> surface_;
   ContactJacobian J_;
   int material_a_, material_b_;
   PairRules<double> rules_;

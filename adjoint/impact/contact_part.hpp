@@ -3,10 +3,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "adjoint/impact/impact_pass.hpp"
 #include "adjoint/motion/motion.h"
 #include "adjoint/motion/pair_rules.hpp"
+#include "adjoint/scene/surface_motion.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -27,6 +29,16 @@ struct RimPart {
   std::function<StateDerivative(const Eigen::Matrix<double, 7, 1>& bar, SceneGradient&, BodyModelDerivative&)> pullback;
 };
 
+/// The surface of one of the bodies of a contact, that moves or could.
+template <class S>
+struct SurfacePart {
+  int body, participant;  // participant -1: a fixed body
+  double sign;            // of its velocity in u: 1 for a of the contact, -1 for b
+  SurfaceMotion<S> motion;
+  V3<S> center;         // of mass, from the body's origin, in world axes
+  V3<S> point, normal;  // of the contact
+};
+
 /// A contact of an event, linearised.
 template <class S>
 struct ContactPart {
@@ -41,6 +53,7 @@ struct ContactPart {
   std::shared_ptr<const RimPart> rim;  // in place of what is above, but that its first row stays
   bool closes = false;                 // its gap is 0 from here on
   S gap = 0;  // of a contact that persists from here on: 0, with its rates
+  std::optional<SurfacePart<S>> surface;
   bool tilted = false;
   Eigen::Matrix<S, 3, 7> tilt;  // d(impulse normal) by (normal, tilt a, tilt b)
   int material_a = -1, material_b = -1;

@@ -32,7 +32,7 @@ auto doubleDoublePass(const ImpactInputs<S>& inputs) {
                            b.x.template cast<W>(), b.v.template cast<W>(), b.L.template cast<W>()});
   for (const auto& c : inputs.contacts)
     wide.contacts.push_back({c.a, c.b, c.point.template cast<W>(), c.normal.template cast<W>(), castPair<W>(c.pair),
-                             c.kept});
+                             c.kept, c.surface.template cast<W>(), c.surface_moves});
   return ImpactPass<W>(std::move(wide));
 }
 
@@ -65,6 +65,7 @@ ImpactBars<S> doubleDoubleImpactPullback(const ImpactInputs<S>& inputs, const st
                          m.center.template cast<S>()});
   for (const auto& c : bars.contact) out.contact.push_back(c.template cast<S>());
   for (const auto& p : bars.pair) out.pair.push_back(castPair<S>(p));
+  for (const auto& s : bars.surface) out.surface.push_back(s.template cast<S>());
   return out;
 }
 

@@ -144,6 +144,29 @@ class EventPass {
     part.rules.pullback(pair_bar, slot(part.material_a), slot(part.material_b));
   }
 
+  /// The same of the velocity of the moving surface of a contact.
+  void surfacePullback(const Part& part, const V3<S>& bar, std::vector<StateBar>& before_bar, SceneBar& scene_bar,
+                       std::vector<ModelBar>& model_bar) const {
+    if (!part.surface) return;
+    const SurfacePart<S>& surface = *part.surface;
+    const auto d = surface.motion.pullback(surface.point, surface.normal, V3<S>(surface.sign * bar));
+    auto& body = scene_bar.bodies[static_cast<std::size_t>(surface.body)];
+    body.surface_velocity += d.velocity;
+    body.surface_angular_velocity += d.spin;
+    Vec7 contact;
+    contact << S(0), d.normal, d.point;
+    scatter(part, contact, before_bar, scene_bar, model_bar);
+    if (surface.participant < 0) {
+      body.position += d.position;
+      body.orientation += d.theta;
+      return;
+    }
+    StateBar& before = before_bar[static_cast<std::size_t>(surface.participant)];  // X = x - R c
+    before.x += d.position;
+    before.theta += d.theta - surface.center.cross(d.position);
+    model_bar[static_cast<std::size_t>(surface.body)].center -= surface.motion.R.transpose() * d.position;
+  }
+
   /// Adjoint just before the event from that just after (`fixed_bar`, at the fixed nominal time), plus adjoints of the state just before
   /// (`read_bar`) and of the time of the event (`time_bar`) that are read at the event itself.
   std::vector<StateBar> pullback(const std::vector<StateBar>& fixed_bar, const std::vector<StateBar>& read_bar,
@@ -167,6 +190,8 @@ class EventPass {
         model_bar[static_cast<std::size_t>(event_.participants[i].body)] += bars.model[i];
       for (std::size_t k = 0; k < parts_.size(); ++k)
         contactPullback(k, bars.contact[k], bars.pair[k], before_bar, scene_bar, model_bar);
+      for (std::size_t k = 0; k < parts_.size(); ++k)
+        surfacePullback(parts_[k], bars.surface[k], before_bar, scene_bar, model_bar);
     }
     if (through && !projection_.lasting().empty()) {
       const VectorOf<S> gap_bar = projection_.pullback(turned(0.5));

@@ -26,7 +26,8 @@ ImpactInputs<double> impactInputs(const Event& event, const std::vector<BodyMode
   }
   for (const Contact& c : event.contacts)
     in.contacts.push_back(
-        {participantOf(event, c.a), participantOf(event, c.b), c.at.point, c.impulse_normal, c.pair, c.kept});
+        {participantOf(event, c.a), participantOf(event, c.b), c.at.point, c.impulse_normal, c.pair, c.kept,
+         c.surface_velocity, !c.surface_velocity.isZero(0)});
   return in;
 }
 
@@ -45,7 +46,7 @@ Rate along(double value, double rate) {
 }
 
 ImpactInputs<Rate> along(const ImpactInputs<double>& in, const std::vector<StateDerivative>& dbefore,
-                         const std::vector<Eigen::Matrix<double, 7, 1>>& dcontact,
+                         const std::vector<Eigen::Matrix<double, 7, 1>>& dcontact, const std::vector<Vec3>& dsurface,
                          const std::vector<PairCoefficients>& dpair, const std::vector<BodyModelDerivative>& dmodel) {
   ImpactInputs<Rate> both;
   for (std::size_t i = 0; i < in.bodies.size(); ++i) {
@@ -62,7 +63,7 @@ ImpactInputs<Rate> along(const ImpactInputs<double>& in, const std::vector<State
                              along(c.normal, Vec3(dcontact[k].segment<3>(1))),
                              {along(c.pair.elasticity, dpair[k].elasticity), along(c.pair.friction, dpair[k].friction),
                               along(c.pair.tangential_elasticity, dpair[k].tangential_elasticity)},
-                             c.kept});
+                             c.kept, along(c.surface, dsurface[k]), c.surface_moves});
   }
   return both;
 }
@@ -72,9 +73,10 @@ ImpactInputs<Rate> along(const ImpactInputs<double>& in, const std::vector<State
 std::vector<StateDerivative> impactTangent(const ImpactInputs<double>& inputs, bool wide,
                                            const std::vector<StateDerivative>& dbefore,
                                            const std::vector<Eigen::Matrix<double, 7, 1>>& dcontact,
+                                           const std::vector<Vec3>& dsurface,
                                            const std::vector<PairCoefficients>& dpair,
                                            const std::vector<BodyModelDerivative>& dmodel) {
-  ImpactInputs<Rate> both = along(inputs, dbefore, dcontact, dpair, dmodel);
+  ImpactInputs<Rate> both = along(inputs, dbefore, dcontact, dsurface, dpair, dmodel);
   std::vector<Velocities<Rate>> after;
   if (wide) {
     after = doubleDoubleImpact(both).after;
@@ -94,7 +96,7 @@ Vec3 velocityTangent(const ImpactInputs<double>& inputs, const std::vector<State
                      const Eigen::Matrix<double, 7, 1>& dcontact, const std::vector<BodyModelDerivative>& dmodel) {
   ImpactInputs<double> first = inputs;
   first.contacts.resize(1);
-  const ImpactPass<Rate> pass(along(first, dbefore, {dcontact}, {PairCoefficients()}, dmodel));
+  const ImpactPass<Rate> pass(along(first, dbefore, {dcontact}, {Vec3::Zero()}, {PairCoefficients()}, dmodel));
   return ratesOf(V3<Rate>(pass.problem().u), 0);
 }
 
@@ -120,8 +122,9 @@ struct Parting {
 
 Parting partingOf(const Contact& c, const Event& event, const std::vector<BodyModel>& models,
                   const std::vector<State>& after) {
-  Vec3 u = Vec3::Zero(), v = Vec3::Zero();  // of one body's point relative to the other's, before and after
+  Vec3 u = c.surface_velocity, v = u;  // of one body's point relative to the other's, before and after
   Parting parting;
+  parting.size = u.norm();
   for (std::size_t i = 0; i < event.participants.size(); ++i) {
     const Participant& p = event.participants[i];
     if (p.body != c.a && p.body != c.b) continue;
@@ -198,7 +201,7 @@ Margins marginsOf(const Contact& c, const Vec3& u, double stick_slip) {
 // (docs/decisions.md, "Derivatives", has the figures).
 void solveSingle(Event& event, const std::vector<BodyModel>& models, std::vector<State>& after) {
   Contact& c = event.contacts[0];
-  ContactProblem problem{Mat3::Zero(), Vec3::Zero(), c.impulse_normal, c.pair};
+  ContactProblem problem{Mat3::Zero(), c.surface_velocity, c.impulse_normal, c.pair};
   for (const Participant& p : event.participants) {
     const BodyModel& model = models[static_cast<std::size_t>(p.body)];
     const Mat3 A = model.inverseInertiaWorld(p.before.q.toRotationMatrix());

@@ -15,11 +15,13 @@ struct ImpactInputs;
 ImpactInputs<double> impactInputs(const Event& event, const std::vector<BodyModel>& models);
 
 /// Tangent of (states before, contacts, coefficients, models) -> states after: the impact itself in numbers that carry
-/// their rates. `dcontact[k]` holds d(gap, normal of the impulse, point) of contact k; all others are of participants.
+/// their rates. `dcontact[k]` holds d(gap, normal of the impulse, point) of contact k, `dsurface[k]` d(surface velocity); all
+/// others are of participants.
 /// `wide`: with 32 digits, see double_double_impact.hpp.
 std::vector<StateDerivative> impactTangent(const ImpactInputs<double>& inputs, bool wide,
                                            const std::vector<StateDerivative>& dbefore,
                                            const std::vector<Eigen::Matrix<double, 7, 1>>& dcontact,
+                                           const std::vector<Vec3>& dsurface,
                                            const std::vector<PairCoefficients>& dpair,
                                            const std::vector<BodyModelDerivative>& dmodel);
 

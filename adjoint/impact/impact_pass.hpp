@@ -22,6 +22,8 @@ struct ImpactInputs {
     V3<S> point, normal;
     PairCoefficientsOf<S> pair;
     bool kept = false;  // n.u = 0 as an equation
+    V3<S> surface = V3<S>::Zero();  // of u: the velocity of a's moving surface less that of b's
+    bool surface_moves = false;
   };
   std::vector<Body> bodies;
   std::vector<Contact> contacts;
@@ -45,6 +47,7 @@ struct ImpactBars {
   std::vector<BodyModelDerivativeOf<S>> model;
   std::vector<Eigen::Matrix<S, 7, 1>> contact;
   std::vector<PairCoefficientsOf<S>> pair;
+  std::vector<V3<S>> surface;  // of Contact::surface
 };
 
 /// The law that a problem falls under, and its adjoint: laws.hpp, compiled in files of their own.
@@ -65,7 +68,7 @@ template <class S>
 ImpactBars<S> doubleDoubleImpactPullback(const ImpactInputs<S>& inputs, const std::vector<StateDerivativeOf<S>>& after_bar);
 
 /// An impact from states to states with its adjoint, in one kind of number S:
-///   u_k = sum s (v + omega x r),  K_kl = sum s_k s_l (1/m - [r_k]x A [r_l]x),  A = R D R^T,  omega = A L,
+///   u_k = surface_k + sum s (v + omega x r),  K_kl = sum s_k s_l (1/m - [r_k]x A [r_l]x),  A = R D R^T,  omega = A L,
 ///   v+ = v + sum s P/m,  L+ = L + sum s r x P,  with s = 1 on body a and -1 on b.
 template <class S>
 class ImpactPass {
@@ -92,6 +95,7 @@ class ImpactPass {
       const auto& c = in_.contacts[k];
       problem_.normal.push_back(c.normal);
       problem_.pair.push_back(c.pair);
+      problem_.driven = problem_.driven || c.surface_moves;
       if (c.kept) problem_.held.resize(in_.contacts.size()), problem_.held[k] = 1;
       for (std::size_t i = 0; i < in_.bodies.size(); ++i) {
         const bool is_a = static_cast<int>(i) == c.a;
@@ -161,6 +165,7 @@ class ImpactPass {
     for (std::size_t k = 0; k < bars.contact.size(); ++k) {
       bars.contact[k].template segment<3>(1) += bar.normal[k];
       bars.pair[k] += bar.pair[k];
+      bars.surface[k] += bar.u.template segment<3>(3 * static_cast<Eigen::Index>(k));
     }
   }
   void betweenPullback(Between& between, Bars& bars) const {
@@ -180,7 +185,7 @@ class ImpactPass {
     const std::size_t bodies = in_.bodies.size(), contacts = in_.contacts.size();
     return {std::vector<StateDerivativeOf<S>>(bodies), std::vector<BodyModelDerivativeOf<S>>(bodies),
             std::vector<Eigen::Matrix<S, 7, 1>>(contacts, Eigen::Matrix<S, 7, 1>::Zero()),
-            std::vector<PairCoefficientsOf<S>>(contacts)};
+            std::vector<PairCoefficientsOf<S>>(contacts), std::vector<V3<S>>(contacts, V3<S>::Zero())};
   }
   Between nothingBetween() const {
     const std::size_t n = in_.bodies.size();
@@ -203,6 +208,8 @@ class ImpactPass {
     const auto n = static_cast<Eigen::Index>(in_.contacts.size());
     problem_.u.setZero(3 * n);
     problem_.K.setZero(3 * n, 3 * n);
+    for (Eigen::Index k = 0; k < n; ++k)
+      problem_.u.template segment<3>(3 * k) = in_.contacts[static_cast<std::size_t>(k)].surface;
     for (const Arm& k : arms_)
       problem_.u.template segment<3>(row(k)) += k.sign * V3<S>(in_.bodies[k.body].v + omega_[k.body].cross(k.r));
     for (const Arm& k : arms_)

@@ -45,6 +45,8 @@ struct Contact {
   int tilt_b = -1;               ///< the same for b's
   PairCoefficients pair;         ///< coefficients in force
   double approach = 0;          ///< n . u just before, m/s, < 0; about 0 if persistent
+  /// Part of u beside the motion of the bodies, m/s: the velocity of a's moving surface less that of b's, along the surface.
+  Vec3 surface_velocity = Vec3::Zero();
   Vec3 impulse = Vec3::Zero();  ///< on a, N s
   bool counted = true;    ///< reported as an impact: it arrives from at least a millionth of the body's size
   bool held = false;      ///< persistent: the bodies were in contact there before the event

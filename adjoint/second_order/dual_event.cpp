@@ -141,8 +141,37 @@ class EventMaker {
     part.gap = at[0];
     part.gap.value = 0;
     const NVec normal = tiltNormal(c, at.segment<3>(1), part);
-    inputs.contacts.push_back({part.a.participant, part.b.participant, at.tail<3>(), normal, part.rules.values(), c.kept});
+    NVec surface = NVec::Zero();
+    part.surface = surfaceOf(c, part, at);
+    if (part.surface) surface = part.surface->sign * part.surface->motion.at(part.surface->point, part.surface->normal);
+    inputs.contacts.push_back({part.a.participant, part.b.participant, at.tail<3>(), normal, part.rules.values(), c.kept, surface,
+                               !c.surface_velocity.isZero(0)});
     return part;
+  }
+
+  // Of the body that impacts do not move, if one is such.
+  std::optional<SurfacePart<Num>> surfaceOf(const Contact& c, const Part& part, const Eigen::Matrix<Num, 7, 1>& at) const {
+    const Motion& motion = lanes_.motion();
+    for (const auto& side : {part.a, part.b}) {
+      const Body& body = motion.scene->bodies[static_cast<std::size_t>(side.body)];
+      if (!body.immovable()) continue;
+      const Pose pose = poseBefore(motion, event_, side.body);
+      NMat R = constant(pose.R);
+      NVec x = constant(pose.x), velocity = constant(body.surface_velocity), spin = constant(body.surface_angular_velocity);
+      for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
+        const PairTangent along = pairTangent(part, lane);
+        const Eigen::Index from = side.body == c.a ? 0 : 6;
+        const BodyDerivative& rates = lanes_.direction(lane).scene.bodies[static_cast<std::size_t>(side.body)];
+        setRates(x, Vec3(along.pose.segment<3>(from)), lane);
+        turn(R, along.pose.segment<3>(from + 3), lane);
+        setRates(velocity, rates.surface_velocity, lane);
+        setRates(spin, rates.surface_angular_velocity, lane);
+      }
+      const NVec center = R * lanes_.model(side.body).center;
+      return SurfacePart<Num>{side.body, side.participant, side.body == c.a ? 1.0 : -1.0, {velocity, spin, R, x - center},
+                              center, at.template tail<3>(), at.template segment<3>(1)};
+    }
+    return std::nullopt;
   }
 
   // The normal of the impulse.

@@ -259,7 +259,7 @@ void requireStill(const Motion& motion, int body, const std::vector<const Contac
   const std::vector<Body>& bodies = motion.scene->bodies;
   for (const Contact* c : contacts) {
     const auto with = static_cast<std::size_t>(c->a == body ? c->b : c->a);
-    if (!motion.world_lines[with].arcs.back().stays())
+    if (!motion.world_lines[with].arcs.back().stays() || bodies[with].surfaceMoves())
       throw NotComputable("'" + bodies[with].name + "', on which '" + bodies[static_cast<std::size_t>(body)].name + "' lies, moves");
   }
 }

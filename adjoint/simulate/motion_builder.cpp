@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/simulate/motion_builder.hpp"
 
+#include <tuple>
 #include <utility>
 
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/flight/trajectory.hpp"
 #include "adjoint/impact/tilt.hpp"
+#include "adjoint/motion/contact_surface.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -56,13 +58,23 @@ void MotionBuilder::place(Contact& c, const Kinematics& a, const Kinematics& b) 
   c.impulse_normal = c.tilt_a < 0 && c.tilt_b < 0 ? c.at.normal
                                                   : tiltedNormal(c.at.normal, tiltOf(*motion.scene, c.tilt_a),
                                                                  tiltOf(*motion.scene, c.tilt_b));
+  setVelocities(c, a, b);
+}
+
+void MotionBuilder::setVelocities(Contact& c, const Kinematics& a, const Kinematics& b) const {
   c.approach = c.at.normal.dot(a.v + a.w.cross(c.at.point - a.x) - b.v - b.w.cross(c.at.point - b.x));
+  c.surface_velocity.setZero();
+  for (const auto& [body, of, sign] : {std::tuple{c.a, &a, 1.0}, std::tuple{c.b, &b, -1.0}}) {
+    if (!motion.scene->bodies[index(body)].surfaceMoves()) continue;
+    const SurfaceMotion<double> surface = surfaceMotionOf(motion, body, {of->x, of->R});
+    c.surface_velocity += sign * surface.at(c.at.point, c.at.normal);
+  }
 }
 
 void MotionBuilder::placeMoving(Contact& c, const Kinematics& a, const Kinematics& b) const {
   c.at = motion.geometry->motion(c.a, c.b, c.features, {a.x, a.R}, {b.x, b.R}, {a.v, a.w}, {b.v, b.w}).at;
   c.impulse_normal = c.at.normal;
-  c.approach = c.at.normal.dot(a.v + a.w.cross(c.at.point - a.x) - b.v - b.w.cross(c.at.point - b.x));
+  setVelocities(c, a, b);
 }
 
 const Contact* MotionBuilder::notParted(const Event& event, const std::vector<State>& after) const {

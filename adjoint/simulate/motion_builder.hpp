@@ -33,6 +33,8 @@ class MotionBuilder {
   void place(Contact& contact, const Kinematics& a, const Kinematics& b) const;
   /// The same of a rim that lies flat, whose lowest point follows from how it moves.
   void placeMoving(Contact& c, const Kinematics& a, const Kinematics& b) const;
+  /// Approach and surface velocity of a contact that has its place.
+  void setVelocities(Contact& c, const Kinematics& a, const Kinematics& b) const;
   /// The coefficients of two bodies.
   PairCoefficients pairOf(int a, int b) const { return combine(*material_[index(a)], *material_[index(b)]); }
   /// The first contact whose bodies go on into one another, as an impulse along a tilted normal may make them; null

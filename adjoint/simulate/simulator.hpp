@@ -288,6 +288,8 @@ class Simulator {
   static std::size_t workIn(const Arc& arc) { return arc.series() * (arc.isIntegrated() ? kConstrainedStep : 1); }
   // Whether impacts move a body. They neither join through one that they do not move nor change its path.
   bool isFixed(int body) const { return arc_[index(body)]->stays(); }
+  // Whether it never moves, and nor does its surface.
+  bool isStill(int body) const { return isFixed(body) && !scene_.bodies[index(body)].surfaceMoves(); }
   bool joinsMoved(const Contact& c) const { return isMoved(c.a) && isMoved(c.b); }
   bool isMoved(int body) const {
     const BodyModel& model = (*motion_.models)[index(body)];

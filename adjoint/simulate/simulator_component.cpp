@@ -121,7 +121,7 @@ std::vector<int> Simulator::movedBodies(bool with_supports) const {
 // Contacts of these bodies that last, with each other and with what stays: those of the event, and those of supports before it.
 std::vector<Contact> Simulator::lasting(const std::vector<int>& bodies) const {
   std::vector<Contact> closed;
-  const auto stands = [&](int body) { return isFixed(body) || has(bodies, body) || isSupport(body); };
+  const auto stands = [&](int body) { return isStill(body) || has(bodies, body) || isSupport(body); };
   for (const Contact& c : draft_.event.contacts) {
     if (!c.lasts || !isOf(bodies, c) || !stands(c.a) || !stands(c.b)) continue;
     closed.push_back(c);

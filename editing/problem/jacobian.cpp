@@ -24,6 +24,7 @@ void askControls(const ControlSet& controls, Reliability& reliability) {
   for (const BoundControl& c : controls.controls()) {
     if (c.kind->is_friction) reliability.askFriction(static_cast<int>(c.owner.material));
     if (c.kind->is_velocity) reliability.askVelocity(c.owner.body);
+    if (c.kind->owner == OwnerKind::immovable_body) reliability.askSurface(c.owner.body);
     if (c.owner.body >= 0) reliability.askPlace(c.owner.body);
   }
 }

@@ -108,9 +108,11 @@ double energyDrift(const Motion& motion, int samples) {
 
 namespace {
 
-// By kinematic bodies, whose velocities stay as they are: that of their surface times the impulse on the other body.
+// By kinematic bodies and moving surfaces, whose velocities stay as they are: that of their surface times the impulse on the
+// other body.
 double workDone(const Motion& motion, const Event& event) {
   double work = 0;
+  for (const Contact& c : event.contacts) work -= c.surface_velocity.dot(c.impulse);
   for (const Participant& p : event.participants) {
     const BodyModel& model = (*motion.models)[static_cast<std::size_t>(p.body)];
     if (!model.kinematic) continue;

@@ -82,6 +82,8 @@ void bindContact(nb::module_& module) {
       .def_prop_ro("normal", [](const PyContact& self) { return view(self.contact->at.normal); }, "Unit, from b to a.")
       .def_prop_ro("impulse_normal", [](const PyContact& self) { return view(self.contact->impulse_normal); },
                    "The normal that the impulse uses: `normal`, with the tilts of the scene.")
+      .def_prop_ro("surface_velocity", [](const PyContact& self) { return view(self.contact->surface_velocity); },
+                   "m/s, world: the velocity of a's moving surface less that of b's, beside the bodies' own.")
       .def_prop_ro("impulse", [](const PyContact& self) { return view(self.contact->impulse); }, "N s, on a")
       .def_prop_ro("elasticity", [](const PyContact& self) { return self.contact->pair.elasticity; },
                    "Coefficient of restitution in force.")

@@ -153,7 +153,7 @@ CLASSES = {
         "frictions": "unreliable_for", "beginning": "unreliable_for", "seams": "unreliable_for",
         "friction_message": "sentences", "beginning_message": "sentences", "seam_message": "sentences", "pass": INSIDE,
         "passFriction": INSIDE, "passArc": INSIDE, "askFriction": INSIDE, "askVelocity": INSIDE, "askSpin": INSIDE,
-        "askPlace": INSIDE}),
+        "askPlace": INSIDE, "surfaces": INSIDE, "surface_message": INSIDE, "askSurface": INSIDE}),
     "SimulateOptions": ("adjoint/simulate/simulate.h", "simulate", {
         "asked": INSIDE, "stop": "progress", "stop_when": CALLS, "least_duration": CALLS, "baseline": SPEED, "given": CONTACTS}),
     "EditOptions": ("editing/edit_options.h", "Edit.solve", {

@@ -159,6 +159,29 @@ Scene boxOnKinematic() {
   return s;
 }
 
+/// The same where its surface moves besides.
+Scene boxOnKinematicBelt() {
+  Scene s = boxOnKinematic();
+  s.bodies[1].surface_velocity = {0.4, -0.3, 0.2}, s.bodies[1].surface_angular_velocity = {0.5, -0.6, 1.2};
+  return s;
+}
+
+/// A box on a floor that is a belt, and a ball on the edge of a box whose surface turns.
+Scene boxOnBelt() {
+  Scene s = boxOnPlane();
+  s.bodies[1].surface_velocity = {0.9, 0.2, -0.1};
+  return s;
+}
+Scene ballOnTurningEdge() {
+  Scene s = ballOnBoxEdge();
+  for (Body& b : s.bodies) {
+    if (!std::holds_alternative<Box>(b.shape)) continue;
+    b.fixed = true, b.velocity.setZero(), b.angular_velocity.setZero();
+    b.surface_velocity = {0.3, -0.5, 0.2}, b.surface_angular_velocity = {0.7, 0.4, -1.3};
+  }
+  return s;
+}
+
 }  // namespace
 
 Body makeBody(const std::string& name, const Shape& shape, const std::string& material) {
@@ -200,6 +223,9 @@ const std::vector<Case>& cases() {
       {"box_on_wall", boxOnWall, 0.6, {slide, stick, slide}, {"vertex", "edge", "vertex"}},
       {"symmetric_body", symmetricBody, 0.9, {stick, slide}, {"vertex", "vertex"}},
       {"box_on_kinematic", boxOnKinematic, 0.7, {ImpactMode::stick, ImpactMode::stick}, {"face", "face"}},
+      {"box_on_kinematic_belt", boxOnKinematicBelt, 0.7, {stick, stick}, {"face", "face"}},
+      {"box_on_belt", boxOnBelt, 0.9, {slide, slide}, {"vertex", "vertex"}},
+      {"ball_on_turning_edge", ballOnTurningEdge, 0.5, {stick}, {"edge"}},
       {"spherical_body", sphericalBody, 0.76, {stick, slide}, {"vertex", "vertex"}},
   };
   return table;

@@ -40,6 +40,7 @@ struct Side {
   RMat R;                ///< principal to world
   RVec arm;              ///< contact point - centre of mass
   RVec velocity, spin;
+  RVec surface = RVec();  ///< velocity of the surface's material beside the body's
 
   RVec pointVelocity() const { return moving ? velocity + cross(spin, arm) : RVec(); }
   /// Velocity that a unit impulse P at the contact gives to the contact point.
@@ -69,7 +70,7 @@ inline RVec impulseOf(const Side& a, const Side& b, const RVec& n, const Coeffic
                       bool decide) {
   RMat K;
   for (int j = 0; j < 3; ++j) K.column[j] = a.mobility(axisVector(j)) + b.mobility(axisVector(j));
-  const RVec u = a.pointVelocity() - b.pointVelocity();
+  const RVec u = a.pointVelocity() + a.surface - b.pointVelocity() - b.surface;
   const RVec P_I = (-dot(n, u) / dot(n, K * n)) * n;
   if (decide && c.friction == 0) mode = ImpactMode::frictionless;
   if (decide && c.friction == 0) return (1 + c.elasticity) * P_I;

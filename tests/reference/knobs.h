@@ -33,6 +33,7 @@ inline const std::vector<KnobKind>& knobKinds() {
   static constexpr auto two = [](const N&, int) { return firstComponents(2); };
   static constexpr auto three = [](const N&, int) { return firstComponents(3); };
   static constexpr auto if_moving = [](const N& n, int i) { return firstComponents(n.bodies[i].moving ? 3 : 0); };
+  static constexpr auto if_surface = [](const N& n, int i) { return firstComponents(n.bodies[i].surfaceMoves() ? 3 : 0); };
   static const std::vector<KnobKind> kinds = {
       {"gravity", three, one, [](N& n, int, int c, const Real& h) { n.gravity[c] += h; },
        [](D& d, int, int c) -> double& { return d.gravity[c]; }},
@@ -54,6 +55,10 @@ inline const std::vector<KnobKind>& knobKinds() {
        [](D& d, int i, int c) -> double& { return d.bodies[i].velocity[c]; }},
       {"angular_velocity", if_moving, bodies, [](N& n, int i, int c, const Real& h) { n.bodies[i].spin[c] += h; },
        [](D& d, int i, int c) -> double& { return d.bodies[i].angular_velocity[c]; }},
+      {"surface_velocity", if_surface, bodies, [](N& n, int i, int c, const Real& h) { n.bodies[i].surface_velocity[c] += h; },
+       [](D& d, int i, int c) -> double& { return d.bodies[i].surface_velocity[c]; }},
+      {"surface_angular_velocity", if_surface, bodies, [](N& n, int i, int c, const Real& h) { n.bodies[i].surface_spin[c] += h; },
+       [](D& d, int i, int c) -> double& { return d.bodies[i].surface_angular_velocity[c]; }},
       {"mass", [](const N& n, int i) { return firstComponents(n.bodies[i].massive() && !n.bodies[i].has_density); },
        bodies, [](N& n, int i, int, const Real& h) { n.bodies[i].mass_or_density += h; },
        [](D& d, int i, int) -> double& { return d.bodies[i].mass; }},

@@ -29,11 +29,21 @@ struct BodyNumbers {
 
   RVec position, velocity, spin;
   RMat orientation = RMat::identity();  ///< shape to world
+  RVec surface_velocity, surface_spin;  ///< shape axes; of a body that impacts do not move
 
   Real mass() const {
     if (!has_density) return mass_or_density;
     if (kind == Kind::sphere) return mass_or_density * pi() * 4 / 3 * size[0] * size[0] * size[0];
     return mass_or_density * size[0] * size[1] * size[2];
+  }
+  /// Of the material of its surface at p, beside the body's own, along the surface with this normal.
+  RVec surfaceVelocity(const RVec& x, const RMat& R, const RVec& p, const RVec& normal) const {
+    const RVec B = R * surface_velocity + cross(R * surface_spin, p - x);
+    return B - dot(normal, B) * normal;
+  }
+  bool surfaceMoves() const {
+    const auto squares = dot(surface_velocity, surface_velocity) + dot(surface_spin, surface_spin);
+    return squares > 0;
   }
   bool massive() const { return moving && !kinematic; }
   RVec inertia() const {
@@ -84,6 +94,7 @@ inline BodyNumbers numbersOf(const Scene& scene, const Body& body) {
   n.material = body.material.empty() ? -1 : findName(scene.materials, body.material);
   n.position = RVec(body.position);
   n.orientation = rotationOf(body.orientation);
+  n.surface_velocity = RVec(body.surface_velocity), n.surface_spin = RVec(body.surface_angular_velocity);
   if (!n.moving) return n;
   n.velocity = RVec(body.velocity);
   n.spin = RVec(body.angular_velocity);

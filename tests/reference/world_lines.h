@@ -99,7 +99,9 @@ class WorldLines {
     const RealState A = stateAt(f.a, f.flight_a, f.time), B = stateAt(f.b, f.flight_b, f.time);
     const Touch touch =
         touchOf({&numbers_.bodies[f.a], A.position, A.R}, {&numbers_.bodies[f.b], B.position, B.R}, f.features);
-    const Side a = sideOf(f.a, A, touch.point), b = sideOf(f.b, B, touch.point);
+    Side a = sideOf(f.a, A, touch.point), b = sideOf(f.b, B, touch.point);
+    a.surface = numbers_.bodies[f.a].surfaceVelocity(A.position, A.R, touch.point, touch.normal);
+    b.surface = numbers_.bodies[f.b].surfaceVelocity(B.position, B.R, touch.point, touch.normal);
     if (decide && !(dot(touch.normal, a.pointVelocity() - b.pointVelocity()) < 0)) {
       throw std::runtime_error("the bodies of an impact do not approach");
     }

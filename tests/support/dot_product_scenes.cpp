@@ -254,6 +254,66 @@ Scene kinematicAndFixed(double friction) {
 Scene kinematicAndFixedFrictionless() { return kinematicAndFixed(0); }
 Scene kinematicAndFixedFriction() { return kinematicAndFixed(0.5); }
 
+// Surfaces that move: of a floor, of a slope that lies and is turned anyhow, of a body that moves itself.
+Scene belt() {
+  Scene s = boxOnFloor(0.7, 0.3);
+  s.bodies[1].surface_velocity = {1.2, -0.4, 0.3};
+  return s;
+}
+Scene beltFirst() {
+  Scene s = belt();
+  std::swap(s.bodies[0], s.bodies[1]);
+  return s;
+}
+Scene turntable(double friction) {
+  Body plate = fixedBody(makeBox("plate", {6, 5, 0.4}, {-0.3, 0.2, -0.1}));
+  plate.orientation = Quat(0.95, 0.12, -0.08, 0.2).normalized();
+  plate.surface_velocity = {0.3, 0.2, -0.1}, plate.surface_angular_velocity = {0.4, -0.3, 2.5};
+  return makeScene(kGravity, 0.7, friction, {thrownBox(), plate});
+}
+Scene turntableStick() { return turntable(2); }
+Scene turntableSlide() { return turntable(0.1); }
+Scene turntableFrictionless() { return turntable(0); }
+Scene turntableTilt() {
+  Scene s = turntable(0.3);
+  s.tilts = {{"box", 1, {0.03, -0.05}}};
+  return s;
+}
+Scene ballOnRoller() {
+  Body roller = fixedBody(makeBall("roller", 0.5, {0.05, 0.02, 0}));
+  roller.surface_angular_velocity = {1.5, 4, -2};
+  return makeScene(kGravity, 0.6, 0.2, {makeBall("ball", 0.1, {0, 0, 1.2}, {0.1, 0, 0}), roller});
+}
+Scene kinematicBelt() {
+  Scene s = kinematicOffset();
+  s.bodies[1].surface_velocity = {-0.7, 0.5, 0.2}, s.bodies[1].surface_angular_velocity = {0.2, 0.6, -1.5};
+  return s;
+}
+Scene kinematicCompoundBelt() {
+  Scene s = kinematicCompound();
+  s.bodies[1].surface_velocity = {-0.7, 0.5, 0.2}, s.bodies[1].surface_angular_velocity = {0.2, 0.6, -1.5};
+  return s;
+}
+Scene jointBelt(double friction) {
+  Scene s = joint(friction);
+  s.bodies[1].surface_velocity = {0.8, -0.3, 0}, s.bodies[1].surface_angular_velocity = {0, 0, 1.1};
+  return s;
+}
+Scene jointBeltStick() { return jointBelt(3); }
+Scene jointBeltSlide() { return jointBelt(0.1); }
+// half on a belt and half on a floor, or on belts that run apart
+Scene beltAndFloor() {
+  Scene s = kinematicAndFixed(0.5);
+  for (std::size_t b : {1u, 2u}) s.bodies[b].fixed = true, s.bodies[b].kinematic = false, s.bodies[b].velocity.setZero();
+  s.bodies[1].surface_velocity = {0.6, 0.2, 0};
+  return s;
+}
+Scene beltsApart() {
+  Scene s = beltAndFloor();
+  s.bodies[2].surface_velocity = {-0.2, 0.4, 0};
+  return s;
+}
+
 }  // namespace
 
 std::ostream& operator<<(std::ostream& out, const DotProductScene& row) { return out << row.name; }
@@ -314,6 +374,19 @@ std::vector<DotProductScene> dotProductScenes() {
       {"kinematic_joint_slide", kinematicJointSlide, 2, {"joint"}},
       {"kinematic_and_fixed_frictionless", kinematicAndFixedFrictionless, 1, {"joint"}},
       {"kinematic_and_fixed_friction", kinematicAndFixedFriction, 1, {"joint"}},
+      {"belt", belt, 3},
+      {"belt_first", beltFirst, 3},
+      {"turntable_stick", turntableStick, 2, {"stick"}},
+      {"turntable_slide", turntableSlide, 2, {"slide"}},
+      {"turntable_frictionless", turntableFrictionless, 2, {"frictionless"}},
+      {"turntable_tilt", turntableTilt, 2},
+      {"ball_on_roller", ballOnRoller, 1, {"ball on ball"}},
+      {"kinematic_belt", kinematicBelt},
+      {"kinematic_compound_belt", kinematicCompoundBelt},
+      {"joint_belt_stick", jointBeltStick, 2, {"joint"}},
+      {"joint_belt_slide", jointBeltSlide, 1, {"joint"}},
+      {"belt_and_floor", beltAndFloor, 1, {"joint"}},
+      {"belts_apart", beltsApart, 1, {"joint"}},
   };
   for (DotProductScene& row : lastingScenes()) rows.push_back(std::move(row));
   return rows;

@@ -129,6 +129,9 @@ SceneTangent randomDirection(const Scene& scene, Random& random) {
     for (double& size : b.size) size = random.in(-1, 1);
   }
   for (Vec2& t : d.tilts) t = random.vec(1).head<2>();
+  if (std::ranges::none_of(scene.bodies, &Body::surfaceMoves)) return d;  // what lasts on them has no such derivative
+  Random of_surfaces(static_cast<std::uint64_t>(1e9 * (1 + d.gravity.x())));  // those above stay what they are
+  for (BodyDerivative& b : d.bodies) b.surface_velocity = of_surfaces.vec(1), b.surface_angular_velocity = of_surfaces.vec(1);
   return d;
 }
 
@@ -171,7 +174,8 @@ Eigen::VectorXd flatten(const SceneDerivative& d) {
   for (const MaterialDerivative& m : d.materials)
     all.insert(all.end(), {m.elasticity, m.friction, m.tangential_elasticity});
   for (const BodyDerivative& b : d.bodies) {
-    for (const Vec3* v : {&b.position, &b.orientation, &b.velocity, &b.angular_velocity, &b.inertia})
+    for (const Vec3* v : {&b.position, &b.orientation, &b.velocity, &b.angular_velocity, &b.inertia, &b.surface_velocity,
+                          &b.surface_angular_velocity})
       all.insert(all.end(), v->data(), v->data() + 3);
     all.insert(all.end(), b.size.begin(), b.size.end());
     all.insert(all.end(), {b.mass, b.density});
@@ -203,6 +207,8 @@ Scene moved(Scene s, const SceneTangent& d, double h) {
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     Body& b = s.bodies[i];
     const BodyDerivative& r = d.bodies[i];
+    if (b.immovable())
+      b.surface_velocity += h * r.surface_velocity, b.surface_angular_velocity += h * r.surface_angular_velocity;
     b.position += h * r.position, b.velocity += h * r.velocity, b.angular_velocity += h * r.angular_velocity;
     b.orientation = (adjoint_detail::expSO3(h * r.orientation) * b.orientation).normalized();
     if (b.mass) *b.mass += h * r.mass;

@@ -88,6 +88,8 @@ std::vector<ControlRow> controlRows() {
   body("orientation", &BodyDerivative::orientation);
   body("velocity", &BodyDerivative::velocity);
   body("angular_velocity", &BodyDerivative::angular_velocity);
+  body("surface_velocity", &BodyDerivative::surface_velocity);
+  body("surface_angular_velocity", &BodyDerivative::surface_angular_velocity);
   body("mass", &BodyDerivative::mass);
   body("density", &BodyDerivative::density);
   body("inertia", &BodyDerivative::inertia);

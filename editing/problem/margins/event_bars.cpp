@@ -77,6 +77,7 @@ SceneGradient EventBars::gradient() const {
     models[static_cast<std::size_t>(event_.participants[i].body)] += bars.model[i];
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     pass_.contactPullback(k, bars.contact[k], bars.pair[k], bars.before, direct, models);
+    pass_.surfacePullback(pass_.parts()[k], bars.surface[k], bars.before, direct, models);
     pass_.scatter(pass_.parts()[k], contacts_[k], bars.before, direct, models);
   }
   for (std::size_t i = 0; i < seeds.size(); ++i) {
@@ -97,6 +98,8 @@ SceneGradient EventBars::gradient() const {
     g.bodies[i].position += direct.bodies[i].position;
     g.bodies[i].orientation += direct.bodies[i].orientation;
     g.bodies[i].size += direct.bodies[i].size;
+    g.bodies[i].surface_velocity += direct.bodies[i].surface_velocity;
+    g.bodies[i].surface_angular_velocity += direct.bodies[i].surface_angular_velocity;
   }
   return g;
 }

@@ -21,7 +21,7 @@ class EventBars {
 
   /// By (gap, normal, point) of a contact, at the moved poses of its bodies.
   void addContact(int contact, const Eigen::Matrix<double, 7, 1>& bar);
-  /// By the relative velocity u = v_a + omega_a x r_a - v_b - omega_b x r_b of a contact.
+  /// By the relative velocity u of a contact (docs/equations.md, section 4), moving surfaces counted in.
   void addVelocity(int contact, const Vec3& u_bar);
   /// By the matrix K of a contact (docs/equations.md section 4), and by the normal of the impulse and the coefficients.
   void addLaw(int contact, const Mat3& K_bar, const Vec3& impulse_normal_bar, const PairCoefficients& pair_bar);
