@@ -183,6 +183,96 @@ TEST(MovingSupports, ABoxSlipsOnATiltingPlate) {
   }
 }
 
+Body beltAt(double speed, const Vec3& size = {40, 40, 0.2}) {
+  Body belt = fixedBody(makeBox("belt", size, {0, 0, -0.1}));
+  belt.surface_velocity = {speed, 0, 0};
+  return belt;
+}
+
+// A ball that is set down on a belt rolls at 2/7 of its speed after 2 v/(7 mu g).
+TEST(MovingSupports, ABallIsSetOnABelt) {
+  const double v = 1.5, mu = 0.3, rolls = 2 * v / (7 * mu * kG), T = 0.5;
+  EXPECT_NEAR(rolls, 0.14562399883500801, 1e-16);
+  for (const bool reverse : {false, true}) {
+    Scene scene = makeScene(kDown, 0, mu, {beltAt(v), makeBall("ball", 0.1, {0, 0, 0.1})});
+    if (reverse) scene = inReverse(scene);
+    const int ball = bodyIndex(scene, "ball");
+    const Motion m = playLasting(scene, T);
+    ASSERT_EQ(m.status, MotionStatus::complete) << m.message;
+    ASSERT_EQ(m.events.size(), 2u);
+    expectEntries(m.events[1].time, rolls, 1e-13, "rolls");
+    expectEntries(m.stateAt(ball, T).velocity, Vec3(2 * v / 7, 0, 0), 1e-13, "velocity");
+    expectEntries(m.stateAt(ball, T).position.x(), 2 * v / 7 * (T - rolls / 2), 1e-13, "place");
+    EXPECT_EQ(m.world_lines[static_cast<std::size_t>(ball)].arcs.back().kind(), ArcKind::roll);
+    const SceneGradient d = gradientOf(m, ball, T, 0);
+    expectEntries(of(scene, d, "belt").surface_velocity.x(), 2.0 / 7 * T - 2 * rolls / 7, 1e-11, "by the belt's speed");
+    expectEntries(d.materials[0].friction, v * rolls / (7 * mu), 1e-11, "by friction");
+    expectTransposed(m, 7);
+  }
+}
+
+// A box that slides across a belt is carried after sqrt(v^2 + u^2)/(mu g), along the way of its slip.
+TEST(MovingSupports, ABoxSlidesAcrossABelt) {
+  const double v = 1.5, u = 2, mu = 0.3, slip = std::hypot(v, u), carried = slip / (mu * kG);
+  EXPECT_NEAR(carried, 0.84947332653754672, 1e-15);
+  for (const bool reverse : {false, true}) {
+    Scene scene = makeScene(kDown, 0, mu, {beltAt(v), makeBox("box", {0.2, 0.2, 0.1}, {0, 0, 0.05}, {0, u, 0})});
+    if (reverse) scene = inReverse(scene);
+    const int box = bodyIndex(scene, "box");
+    const Motion m = playLasting(scene, 1);
+    ASSERT_EQ(m.status, MotionStatus::complete) << m.message;
+    ASSERT_EQ(m.events.size(), 2u);
+    EXPECT_EQ(m.world_lines[static_cast<std::size_t>(box)].arcs.back().kind(), ArcKind::ride);
+    expectEntries(m.events[1].time, carried, 1e-12, "carried");
+    expectEntries(m.stateAt(box, carried).position, Vec3(0.63710499490316004, 0.84947332653754672, 0.05), 1e-12, "place");
+    expectEntries(m.stateAt(box, 1).velocity, Vec3(v, 0, 0), 1e-12, "velocity");
+    StateSeed place;
+    place.body = box, place.at = Instant::before(1), place.position = Vec3::UnitX();
+    const SceneGradient d = adjoint(m, std::vector{place});
+    expectEntries(of(scene, d, "belt").surface_velocity.x(), 0.57764186204553177, 1e-9, "by the belt's speed");
+    expectEntries(of(scene, d, "box").velocity.y(), 0.20387359836901121, 1e-9, "by the box's");
+    expectEntries(d.materials[0].friction, -2.1236833163438668, 1e-9, "by friction");
+    expectEntries(-d.gravity.z(), -0.064944443924888893, 1e-9, "by gravity");
+    expectTransposed(m, 8, 1e-12);
+  }
+}
+
+// To its end, where it tips over.
+TEST(MovingSupports, ABeltCarriesABoxToItsEnd) {
+  const double v = 1, length = 0.5;
+  const Scene scene = makeScene(kDown, 0, 0.6, {beltAt(v, {2 * length, 2, 0.2}), makeBox("box", {0.2, 0.2, 0.1}, {0, 0, 0.05}, {v, 0, 0})});
+  const Motion m = playLasting(scene, 0.6);
+  ASSERT_EQ(m.status, MotionStatus::complete) << m.message;
+  EXPECT_EQ(m.world_lines[1].arcs[1].kind(), ArcKind::ride);
+  ASSERT_GE(m.events.size(), 3u);
+  EXPECT_EQ(m.events[1].cause, TransitionCause::leaves);
+  expectEntries(m.events[1].time, (length - 0.1) / v, 1e-13, "its front leaves the belt");
+  EXPECT_GT(m.stateAt(1, 0.6).angular_velocity.y(), 0.1);
+}
+
+// A plate that turns is a plate at rest whose surface turns.
+TEST(MovingSupports, ATurntableIsAPlateWithASurfaceThatTurns) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const double omega = random.in(-3, 3);
+    Body body = seed % 2 ? makeBall("body", 0.1, {0.3, 0.1, 0.3}, random.vec(0.5)) : makeBox("body", {0.2, 0.15, 0.1}, {0.3, 0.1, 0.05});
+    body.angular_velocity = seed % 2 ? random.vec(3) : Vec3(0, 0, random.in(-2, 2));
+    const Body plate = makeBox("plate", {30, 30, 0.2}, {0, 0, -0.1});
+    Body still = fixedBody(plate);
+    still.surface_angular_velocity = {0, 0, omega};
+    const Motion a = playLasting(makeScene(kDown, 0, 0.3, {moving(plate, Vec3::Zero(), {0, 0, omega}), body}), 1);
+    const Motion b = playLasting(makeScene(kDown, 0, 0.3, {still, body}), 1);
+    ASSERT_EQ(a.status, MotionStatus::complete) << a.message;
+    ASSERT_EQ(b.status, MotionStatus::complete) << b.message;
+    ASSERT_EQ(a.events.size(), b.events.size());
+    expectEntries(changeOf(a.stateAt(1, 1), b.stateAt(1, 1)), Eigen::Matrix<double, 12, 1>::Zero(), 1e-11, "state");
+    for (int i = 0; i < 3; ++i)
+      expectEntries(gradientOf(a, 1, 1, i).bodies[0].angular_velocity.z(), gradientOf(b, 1, 1, i).bodies[0].surface_angular_velocity.z(), 1e-9, "by the turn");
+    expectTransposed(b, seed, 1e-11);
+  }
+}
+
 /// Rises by `height` within `time` as a cubic with no speed at both ends, and stays there.
 class KeyedLift final : public adjoint_detail::Trajectory {
  public:
