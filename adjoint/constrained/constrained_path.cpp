@@ -22,6 +22,8 @@ constexpr double kNoDirection = 1e-7;
 // Its direction at its end is found in so many rounds, if it is not further than this from that at a node, rad.
 constexpr int kAlignRounds = 3;
 constexpr double kMostAlign = 0.01;
+// What turns of directions do less to accelerations than this share decides nothing.
+constexpr double kDecides = 1e-9;
 // A slip goes straight where it changes across its direction by no more than this share.
 constexpr double kTurns = 1e-4;
 // The first step turns the body by about so much, rad, and steps are never longer than this share of the first guess.
@@ -286,7 +288,10 @@ void ConstrainedPath::alignStop(ConstrainedInstant& now) const {
         r[i] = across.dot(rate);
       }
     }
-    const Eigen::VectorXd turn = -PartialLu(J).solve(r);
+    // where all turn alike and friction alone pulls, any direction is that of its acceleration: it stays
+    if (!(J.cwiseAbs().maxCoeff() > kDecides * scene_.gravity.norm())) return;
+    const bool each = FullLu(J, kDecides).rank() == size;
+    const Eigen::VectorXd turn = -(each ? PartialLu(J).solve(r) : CompleteOrthogonal(J, kDecides).solve(r));
     if (!(turn.cwiseAbs().maxCoeff() < kMostAlign)) return;
     for (Eigen::Index i = 0; i < size; ++i) {
       ContactInstant<double>& c = now.contacts[turning[static_cast<std::size_t>(i)]];

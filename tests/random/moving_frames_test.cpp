@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The worlds of one_body_worlds.h seen from a frame that moves uniformly: every ground becomes a kinematic body, and what has a
 // closed form on ground that stands still is integrated on one that moves. Where the same impacts happen, states are the same.
-// CAROM_TEST_SCALE=40 plays 2000; CAROM_FIRST_SEED says from where.
+// Left out are grounds that are cut: flush pieces that move are not one ground. CAROM_TEST_SCALE=40 plays 2000; CAROM_FIRST_SEED says from where.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <optional>
 
 #include "adjoint/base/errors.h"
 #include "ode_bridge/ode_contacts.h"
@@ -25,10 +24,22 @@ using namespace test;
 constexpr double kFollowed = 0.8;  // s
 constexpr std::size_t kSteps = 300'000;
 
-// Of all bodies at the same velocity; a half-space has none.
-std::optional<Scene> carriedBy(const Vec3& V, Scene scene) {
+// A half-space cannot move: slabs in place of them.
+Scene withSlabs(Scene scene) {
   for (Body& body : scene.bodies) {
-    if (std::holds_alternative<Plane>(body.shape)) return std::nullopt;
+    const auto* plane = std::get_if<Plane>(&body.shape);
+    if (!plane) continue;
+    const Vec3 n = plane->normal;
+    body.orientation = Quat::FromTwoVectors(Vec3::UnitZ(), n);
+    body.position = n * (plane->offset - 5);
+    body.shape = Box{Vec3(300, 300, 10)};
+  }
+  return scene;
+}
+
+// All bodies at the same velocity.
+Scene carriedBy(const Vec3& V, Scene scene) {
+  for (Body& body : scene.bodies) {
     if (body.fixed) body.fixed = false, body.kinematic = true;
     body.velocity += V;
   }
@@ -57,13 +68,13 @@ TEST(MovingFrames, ChangeNothing) {
   const char* first = std::getenv("CAROM_FIRST_SEED");
   const std::uint64_t from = first ? std::strtoull(first, nullptr, 10) : 1;
   for (std::uint64_t seed = from; seed < from + static_cast<std::uint64_t>(scaled(50)); ++seed) {
-    const World world = worldOf(seed);
+    World world = worldOf(seed);
+    if (world.what.find("cut") != std::string::npos) continue;
+    world.scene = withSlabs(world.scene);
     const Vec3 V = Random(seed).vec(1);
-    const std::optional<Scene> carried = carriedBy(V, world.scene);
-    if (!carried) continue;
     SCOPED_TRACE("seed " + std::to_string(seed) + ", " + world.what + ", e " + std::to_string(world.scene.materials[0].elasticity) +
                  ", mu " + std::to_string(world.scene.materials[0].friction));
-    const Motion a = followed(world.scene), b = followed(*carried);
+    const Motion a = followed(world.scene), b = followed(carriedBy(V, world.scene));
     ++played;
     if (a.status != MotionStatus::complete) continue;
     if (b.status != MotionStatus::complete) {
