@@ -13,6 +13,7 @@ import json
 import os
 import pathlib
 import random
+import resource
 import signal
 import statistics
 import subprocess
@@ -126,9 +127,21 @@ def threads() -> Iterator[Row]:
             return time.perf_counter() - began
 
         of_threads(1)
-        took = [(of_threads(1), of_threads(2), of_processes(1), of_processes(2)) for _ in range(9)]
-        yield f"{what}, two threads beside one", statistics.median(2 * a / b for a, b, _, _ in took), "times", ">= 1.9"
-        yield f"{what}, two processes beside one", statistics.median(2 * c / d for _, _, c, d in took), "times", ""
+        took = [(of_threads(1), of_threads(2), of_processes(1), of_processes(2), of_threads(2)) for _ in range(15)]
+        yield f"{what}, two threads beside one", statistics.median(2 * a / b for a, b, *_ in took), "times", ">= 1.9"
+        yield f"{what}, two processes beside one", statistics.median(2 * c / d for _, _, c, d, _ in took), "times", ""
+        # Threads before and after: what else the machine does changes in the meantime.
+        yield f"{what}, two threads beside two processes", statistics.median(2 * d / (b + e) for _, b, _, d, e in took), "times", ""
+        began = time.process_time()
+        of_threads(1), of_threads(1)
+        alone = time.process_time() - began
+        waits = -resource.getrusage(resource.RUSAGE_SELF).ru_nvcsw
+        began = time.process_time()
+        of_threads(2)
+        together = time.process_time() - began
+        waits += resource.getrusage(resource.RUSAGE_SELF).ru_nvcsw
+        yield f"{what}, processor time of two threads at a time beside one after the other", together / alone, "times", ""
+        yield f"{what}, waits of two threads for each other", waits / (2 * calls), "a call", ""
 
 
 def answers(call: Callable[[], object], longest: float, tries: int, draw: random.Random) -> list[float]:
