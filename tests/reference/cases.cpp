@@ -224,7 +224,7 @@ const std::vector<Case>& cases() {
       {"symmetric_body", symmetricBody, 0.9, {stick, slide}, {"vertex", "vertex"}},
       {"box_on_kinematic", boxOnKinematic, 0.7, {ImpactMode::stick, ImpactMode::stick}, {"face", "face"}},
       {"box_on_kinematic_belt", boxOnKinematicBelt, 0.7, {stick, stick}, {"face", "face"}},
-      {"box_on_belt", boxOnBelt, 0.9, {slide, slide}, {"vertex", "vertex"}},
+      {"box_on_belt", boxOnBelt, 0.9, {stick, stick, slide}, {"vertex", "vertex", "vertex"}},
       {"ball_on_turning_edge", ballOnTurningEdge, 0.5, {stick}, {"edge"}},
       {"spherical_body", sphericalBody, 0.76, {stick, slide}, {"vertex", "vertex"}},
   };
