@@ -12,7 +12,8 @@ from conftest import BALL, SCENES
 import carom
 
 VECTORS = ("position", "orientation", "velocity", "angular_velocity")
-FIELDS = (*VECTORS, "inertia", "mass", "density", "elasticity", "friction", "tangential_elasticity", "gravity", "tilts")
+SURFACES = ("surface_velocity", "surface_angular_velocity")
+FIELDS = (*VECTORS, *SURFACES, "inertia", "mass", "density", "elasticity", "friction", "tangential_elasticity", "gravity", "tilts")
 
 # A box that tumbles over a floor: every parameter matters.
 BOX = copy.deepcopy(BALL)
@@ -22,12 +23,17 @@ BOX["bodies"][1] = {
     "position": [0, 0, 0.6], "orientation": [0.9, 0.3, 0.2, 0.244948974278317808], "velocity": [1, 0.2, 0.3],
     "angular_velocity": [3, 5, -2]}
 
+# The same on a belt that turns.
+BELT = copy.deepcopy(BOX)
+BELT["bodies"][0].update(surface_velocity=[1.2, -0.4, 0], surface_angular_velocity=[0.1, 0, 0.8])
+
 
 def random_direction(scene, random):
     moving = [name for name in scene.bodies if name != "floor"]
     return carom.SceneTangent(
         scene,
         **{name: {body: random.standard_normal(3) for body in moving} for name in VECTORS},
+        **{name: {"floor": random.standard_normal(3)} for name in SURFACES},
         mass={body: random.standard_normal() for body in moving},
         elasticity={"rubber": random.standard_normal()},
         friction={"rubber": random.standard_normal()},
@@ -50,7 +56,7 @@ def close(a, b, tolerance):
     return abs(a - b) <= tolerance * max(1, abs(a), abs(b))  # False for NaN
 
 
-@pytest.mark.parametrize("document", [BALL, BOX], ids=["ball", "box"])
+@pytest.mark.parametrize("document", [BALL, BOX, BELT], ids=["ball", "box", "belt"])
 def test_tangent_and_adjoint_agree(document):
     scene = carom.Scene(document)
     motion = carom.simulate(scene)
@@ -99,6 +105,33 @@ def test_a_bounce_by_closed_form(ball):
     assert close(time.position[1, 2], -1 / vi, 1e-13)
     direction = carom.SceneTangent(ball, position={"ball": (0, 0, 1)})
     assert close(carom.tangent(motion, direction).event_time(0), -1 / vi, 1e-13)
+
+
+def test_a_belt_by_closed_form(ball):
+    """What falls without spin on a belt and sticks gets 2/7 of the belt's velocity."""
+    document = copy.deepcopy(BALL)
+    document["bodies"][0]["surface_velocity"] = [1.5, 0, 0]
+    document["materials"]["rubber"]["friction"] = 5
+    document["bodies"][1].update(velocity=[0, 0, 1], angular_velocity=[0, 0, 0])
+    scene = carom.Scene(document)
+    assert scene.to_dict()["bodies"][0]["surface_velocity"] == [1.5, 0, 0]
+    motion = carom.simulate(scene)
+    first = motion.events[0]
+    assert first.mode == "stick" and np.allclose(abs(first.contacts[0].surface_velocity), [1.5, 0, 0], rtol=0, atol=1e-15)
+    t = first.time + 0.05
+    assert close(motion.state_at("ball", t).velocity[0], 2 / 7 * 1.5, 1e-13)
+    gradient = carom.adjoint(motion, carom.Seed("ball", t, velocity=(1, 0, 0)))
+    assert np.allclose(gradient.surface_velocity, [[2 / 7, 0, 0], [0, 0, 0]], rtol=0, atol=1e-13)
+    edit = carom.Edit(scene, t)
+    edit.vary(carom.surface_velocity("floor", components=["x"]))
+    edit.nail("ball", t).velocity(0.9, None, None)
+    result = edit.solve()
+    assert result.solved and close(result.changed[0].after, 0.9 * 7 / 2, 1e-9)
+    with pytest.raises(carom.InputError, match="impacts move body 'ball'"):
+        edit = carom.Edit(scene, t)
+        edit.vary(carom.surface_angular_velocity("ball"))
+        edit.nail("ball", t).velocity(0.9, None, None)
+        edit.solve()
 
 
 def test_bodies_in_reverse_order():
