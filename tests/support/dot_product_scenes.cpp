@@ -64,6 +64,11 @@ Scene unlike(double friction) {
 }
 Scene unlikeFrictionless() { return unlike(0); }
 Scene unlikeFriction() { return unlike(0.2); }
+Scene unlikeBelt() {
+  Scene s = unlike(0.2);
+  s.bodies[2].surface_velocity = {0.5, -0.3, 0}, s.bodies[2].surface_angular_velocity = {0.1, 0.2, 1.5};
+  return s;
+}
 
 Scene withMoments(const Vec3& moments) {
   Scene s = boxOnFloor(0.7, 0.3);
@@ -329,6 +334,7 @@ std::vector<DotProductScene> dotProductScenes() {
       {"joint_slide", jointSlide, 2, {"joint"}},
       {"unlike_frictionless", unlikeFrictionless, 1, {"joint"}},
       {"unlike_friction", unlikeFriction, 1, {"joint"}},
+      {"unlike_belt", unlikeBelt, 1, {"joint"}},
       // flight tiers of body 0: of the motion / of the derivative
       {"tier_none", ballOnFloor, 3, {"none/none"}, {{false, false}, {}}},
       {"tier_spherical", ballOnFloor, 3, {"spherical/spherical"}, {{true, false}, {}}},
