@@ -47,14 +47,15 @@ SingleImpact::SingleImpact(const Motion& motion, const Event& event, const std::
   const Contact& c = event.contacts[0];
   a_ = {c.a, participantOf(event, c.a)};
   b_ = {c.b, participantOf(event, c.b)};
-  J_ = motion.geometry->jacobian(c.a, c.b, c.features, poseBefore(motion, event, c.a), poseBefore(motion, event, c.b));
+  const Pose pose_a = poseBefore(motion, event, c.a), pose_b = poseBefore(motion, event, c.b);
+  J_ = motion.geometry->jacobian(c.a, c.b, c.features, pose_a, pose_b);
   material_a_ = materials[static_cast<std::size_t>(c.a)];
   material_b_ = materials[static_cast<std::size_t>(c.b)];
   rules_ = rulesOf(materialAt(*motion.scene, material_a_), materialAt(*motion.scene, material_b_));
   problem_ = {Mat3::Zero(), c.surface_velocity, c.impulse_normal, c.pair};
   for (const int body : {c.a, c.b}) {
     if (!motion.scene->bodies[static_cast<std::size_t>(body)].immovable()) continue;
-    const Pose pose = poseBefore(motion, event, body);
+    const Pose& pose = body == c.a ? pose_a : pose_b;
     surface_ = {body, participantOf(event, body), body == c.a ? 1.0 : -1.0, surfaceMotionOf(motion, body, pose),
                 pose.R * (*motion.models)[static_cast<std::size_t>(body)].center, c.at.point, c.at.normal};
   }
