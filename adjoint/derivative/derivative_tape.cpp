@@ -66,7 +66,8 @@ ArcSensitivity sensitivity(const Motion& motion, int body, int k, double t) {
 
 }  // namespace
 
-DerivativeTape::DerivativeTape(const Motion& motion) : motion_(motion), events_(motion.events.size()) {
+DerivativeTape::DerivativeTape(const Motion& motion, std::function<void()> look)
+    : motion_(motion), look_(std::move(look)), events_(motion.events.size()) {
   if (!motion.has_events)
     throw InputError("found a motion whose events were not recorded, expected one with them: derivatives need them");
   for (const WorldLine& line : motion.world_lines) arcs_.emplace_back(line.arcs.size());
@@ -80,6 +81,7 @@ const ArcSensitivity& DerivativeTape::arc(int body, int k) {
   const std::size_t kk = checkedIndex("DerivativeTape::arc", "an arc that ends in an event,", k, line.events.size());
   auto& slot = arcs_[b][kk];
   if (!slot) {
+    if (look_) look_();
     slot = std::make_unique<ArcSensitivity>(
         sensitivity(motion_, body, k, motion_.events[static_cast<std::size_t>(line.events[kk])].time));
   }
@@ -98,6 +100,7 @@ ArcSensitivity DerivativeTape::arcUntil(int body, int k, double t) {
   checkTime("DerivativeTape::arcUntil", motion_, t);
   const auto found = until_.find({body, k, t});
   if (found != until_.end()) return found->second;
+  if (look_) look_();
   if (until_.size() == kRemembered) until_.clear();
   return until_[{body, k, t}] = sensitivity(motion_, body, k, t);
 }
@@ -117,7 +120,10 @@ const SingleImpact* DerivativeTape::singleImpact(int event) {
 
 const EventLinearization& DerivativeTape::event(int event) {
   auto& slot = events_[checkedIndex("DerivativeTape::event", "event", event, events_.size())];
-  if (!slot) slot = std::make_unique<EventLinearization>(motion_, event);
+  if (!slot) {
+    if (look_) look_();
+    slot = std::make_unique<EventLinearization>(motion_, event);
+  }
   return *slot;
 }
 

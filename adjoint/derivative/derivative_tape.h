@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -115,10 +116,11 @@ struct Reliability {
 /// thread-safe. Keeps a reference to the motion.
 class DerivativeTape {
  public:
-  /// The motion must outlive the tape. Throws InputError for one without recorded events.
-  explicit DerivativeTape(const Motion& motion);
+  /// The motion must outlive the tape. Throws InputError for one without recorded events. `look` is called before every
+  /// linearisation, of which some take milliseconds; what it throws ends the pass, and the tape stays good.
+  explicit DerivativeTape(const Motion& motion, std::function<void()> look = {});
   /// Of a temporary motion, which would be gone.
-  explicit DerivativeTape(const Motion&&) = delete;
+  explicit DerivativeTape(const Motion&&, std::function<void()> look = {}) = delete;
   ~DerivativeTape();
 
   const Motion& motion() const { return motion_; }  ///< the linearised motion
@@ -135,6 +137,7 @@ class DerivativeTape {
 
  private:
   const Motion& motion_;
+  std::function<void()> look_;  // may be empty
   std::vector<std::vector<std::unique_ptr<ArcSensitivity>>> arcs_;
   std::map<std::tuple<int, int, double>, ArcSensitivity> until_;  // by body, arc and time
   std::vector<std::unique_ptr<adjoint_detail::EventLinearization>> events_;

@@ -140,6 +140,11 @@ void EditProblem::leaveIfAbandoned() const {
   if (abandon.stop_requested()) throw ThrownByUser{std::make_exception_ptr(EditAbandoned())};
 }
 
+std::function<void()> EditProblem::leaver() const {
+  if (!abandon.stop_possible()) return {};
+  return [this] { leaveIfAbandoned(); };
+}
+
 void endWhereNothingCounts(EditProblem& problem) {
   if (problem.constraints.waits())
     problem.stop_when = [&](const Motion& motion) { return problem.constraints.hasWhatItWaitsFor(motion); };

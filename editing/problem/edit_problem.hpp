@@ -67,6 +67,8 @@ struct EditProblem {
   std::stop_token abandon;  ///< of all of them: there will be no answer
   /// Throws EditAbandoned, by ThrownByUser, if that was requested.
   void leaveIfAbandoned() const;
+  /// The same to be called within passes of derivatives (DerivativeTape); empty if it cannot be requested.
+  std::function<void()> leaver() const;
 };
 
 /// From now on motions that are tried end where nothing later counts. The problem stays where it is in memory.

@@ -25,7 +25,7 @@ double norm(const NaturalScales& scales, const Vec3& x, const Vec3& theta, const
 
 double growthOf(const Motion& motion, const EditProblem& problem, const RowValues& rows) {
   const Scene& scene = problem.controls.startScene();
-  DerivativeTape tape(motion);
+  DerivativeTape tape(motion, problem.leaver());
   double growth = 0;
   for (const std::vector<StateSeed>& seeds : rows.seeds) {
     double free = 0;

@@ -125,7 +125,7 @@ RowsCurvature rowsCurvature(const EditProblem& problem, const Eigen::VectorXd& v
   std::vector<ReadingDirection> controls;
   for (Eigen::Index j = 0; j < n; ++j)
     controls.push_back({problem.controls.scatter(Eigen::VectorXd::Unit(n, j), values), {}});
-  DerivativeTape tape(motion);
+  DerivativeTape tape(motion, problem.leaver());
   Readings readings = readingsOf(problem, tape, rows, weights, controls);
   addObjective(problem, rows, objective_weight, readings);
   if (readings.seeds.empty() || directions.size() == 0)

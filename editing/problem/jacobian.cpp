@@ -41,7 +41,7 @@ Eigen::MatrixXd jacobianByAdjoint(const EditProblem& problem, const Eigen::Vecto
                                   const RowValues& rows, std::vector<Reliability>* reliability) {
   Eigen::MatrixXd J = unknown(problem);
   if (reliability) reliability->assign(static_cast<std::size_t>(J.rows()), {});
-  DerivativeTape tape(motion);
+  DerivativeTape tape(motion, problem.leaver());
   for (Eigen::Index i = 0; i < J.rows(); ++i) {
     if (rows.seeds[i].empty()) continue;
     problem.leaveIfAbandoned();
@@ -62,7 +62,7 @@ namespace {
 /// One forward pass a column.
 void putTangents(const EditProblem& problem, const Eigen::VectorXd& values, const Motion& motion, const RowValues& rows,
                  Eigen::MatrixXd& J) {
-  DerivativeTape tape(motion);
+  DerivativeTape tape(motion, problem.leaver());
   for (Eigen::Index j = 0; j < J.cols(); ++j) {
     problem.leaveIfAbandoned();
     const SceneTangent direction = problem.controls.scatter(Eigen::VectorXd::Unit(J.cols(), j), values);
@@ -93,7 +93,7 @@ Eigen::MatrixXd softJacobian(const EditProblem& problem, const Eigen::VectorXd& 
   if (n < set.size()) {
     putTangents(problem, values, motion, rows, J);
   } else {
-    DerivativeTape tape(motion);
+    DerivativeTape tape(motion, problem.leaver());
     for (Eigen::Index i = 0; i < J.rows(); ++i)
       J.row(i) = problem.controls.gather(adjoint(tape, rows.seeds[i]), values).transpose();
   }

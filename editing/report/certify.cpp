@@ -39,7 +39,7 @@ Certificate certify(const EditProblem& problem, const Eigen::VectorXd& unknowns,
     certificate.signature_event = "Not predicted: there are more than " + std::to_string(kMarginBodies) + " bodies.";
     return certificate;
   }
-  DerivativeTape tape(motion);
+  DerivativeTape tape(motion, problem.leaver());
   predictSignature(problem, unknowns, tape, rows, certificate);
   return certificate;
 }

@@ -102,7 +102,7 @@ std::vector<Candidate> candidatesFor(const EditProblem& problem, const EditPoint
     const Motion& motion = rewrites ? own : plain;
     const RowValues read = problem.constraints.evaluate(motion, times);
     if (!read.available) continue;
-    DerivativeTape tape(motion);
+    DerivativeTape tape(motion, problem.leaver());
     Eigen::MatrixXd J(problem.constraints.size(), set.size());
     const Eigen::VectorXd values = set.startValues(), rates = set.valueRates(Eigen::VectorXd::Zero(set.size()));
     for (Eigen::Index i = 0; i < J.rows(); ++i) {

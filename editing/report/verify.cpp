@@ -51,7 +51,7 @@ double largest(const Eigen::VectorXd& values) {
 /// Of the derivatives of all rows, the worst.
 Reliability reliabilityOf(const EditProblem& problem, const Motion& motion, const RowValues& rows) {
   Reliability worst;
-  DerivativeTape tape(motion);
+  DerivativeTape tape(motion, problem.leaver());
   const auto take = [&](const std::vector<StateSeed>& seeds, const std::string& why) {
     if (seeds.empty()) return;
     Reliability one;

@@ -61,7 +61,7 @@ HalfSpaces boundariesAlong(const EditEvaluator& evaluator, const EditPoint& poin
                            const Eigen::MatrixXd& N) {
   const EditProblem& problem = evaluator.problem();
   const Eigen::Index n = problem.controls.size();
-  DerivativeTape tape(point.motion);
+  DerivativeTape tape(point.motion, problem.leaver());
   HalfSpaces spaces{Eigen::MatrixXd(N.cols(), 0), {}};
   std::vector<double> offsets;
   for (const EventMargin& boundary : sequenceBoundaries(problem, point.changes, tape, point.rows, kBoundariesUpTo)) {

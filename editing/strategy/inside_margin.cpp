@@ -28,7 +28,7 @@ constexpr int kInsideSteps = 4;
 /// The nearest boundary within `margin` beyond which an impact that is needed is lost.
 std::optional<EventMargin> nearestLoss(const EditEvaluator& evaluator, const EditPoint& point, double margin) {
   const EditProblem& problem = evaluator.problem();
-  DerivativeTape tape(point.motion);
+  DerivativeTape tape(point.motion, problem.leaver());
   std::optional<EventMargin> nearest;
   for (EventMargin& boundary : sequenceBoundaries(problem, point.changes, tape, point.rows, kBoundariesUpTo)) {
     const double distance = boundary.distance();

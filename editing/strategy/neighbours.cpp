@@ -42,7 +42,7 @@ std::vector<Boundary> boundariesAround(const EditEvaluator& evaluator, const Edi
     normal.head(gradient.size()) = (value < 0 ? -1 : 1) / slope * gradient;
     boundaries.push_back({std::abs(value) / slope, std::move(normal), further / slope});
   };
-  DerivativeTape tape(point.motion);
+  DerivativeTape tape(point.motion, problem.leaver());
   for (const EventMargin& margin : sequenceBoundaries(problem, point.changes, tape, point.rows, kBoundariesUpTo))
     add(margin.value, margin.gradient, beyond * margin.gradient.norm());
   for (const NearMiss& miss : nearMisses(problem, point.changes, tape, point.rows, near_misses))
