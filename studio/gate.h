@@ -16,6 +16,7 @@ struct Request {
   std::vector<std::string> origins;  ///< values of all fields Origin
   bool upgrade = false;              ///< to a WebSocket
   bool body = false;                 ///< has one
+  std::vector<std::string> encodings = {};  ///< values of all fields Accept-Encoding
 };
 
 /// Whether a request is answered.

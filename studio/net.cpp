@@ -229,7 +229,8 @@ void Visitor::onHeader(Error error) {
   const bool body = parser_->chunked() || parser_->content_length().value_or(0) > 0;
   const Request asked{std::string(request.method_string()), std::string(request.target()),
                       allOf(request, http::field::host),    allOf(request, http::field::origin),
-                      websocket::is_upgrade(request),       body};
+                      websocket::is_upgrade(request),       body,
+                      allOf(request, http::field::accept_encoding)};
   const Verdict verdict = judge(asked, net_.port);
   if (verdict.status != 200) return refuse(verdict.status, verdict.sentence);
   if (asked.upgrade) return pathOf(asked.target) == "/socket" ? upgrade() : refuse(404, "found no such socket");

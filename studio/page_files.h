@@ -27,6 +27,7 @@ class PageFiles {
 
   /// The file of exactly this address ("/main.js"; "/" is index.html); null: none. Valid as long as this.
   const PageFile* find(std::string_view path) const;
+  const std::map<std::string, PageFile, std::less<>>& all() const { return files_; }  ///< by address
   /// Adds a file, for tests.
   void add(const std::string& path, PageFile file) { files_[path] = std::move(file); }
 

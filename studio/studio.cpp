@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "adjoint/base/errors.h"
+#include "studio/compressed_files.h"
 #include "studio/dispatcher.h"
 #include "studio/gate.h"
 #include "studio/mailbox.h"
@@ -71,9 +72,11 @@ std::unique_ptr<Net> listen(const StudioOptions& options, unsigned short before,
   return std::make_unique<Net>(options.port, options.limits, handlers);
 }
 
-HttpAnswer pageAnswer(const PageFiles& files, const Request& request) {
+HttpAnswer pageAnswer(const PageFiles& files, const CompressedFiles& compressed, const Request& request) {
   const PageFile* file = files.find(pathOf(request.target));
   if (file == nullptr) return {404, "text/plain; charset=utf-8", "found no such file\n", {}};
+  if (const std::string* bytes = compressed.find(pathOf(request.target)); bytes != nullptr && acceptsGzip(request.encodings))
+    return {200, file->type, *bytes, {{"Content-Encoding", "gzip"}, {"Vary", "Accept-Encoding"}}};
   if (!file->asksForNonce()) return {200, file->type, file->content, {}};
   const std::string nonce = randomHex(kNonceBytes);
   return {200, file->type, file->withNonce(nonce), securityHeaders(nonce)};
@@ -100,6 +103,7 @@ SessionOptions countedWork() {
 int studio(const StudioOptions& options) {
   const std::string share = options.share.empty() ? studioFolder() : options.share;
   const PageFiles files(share);
+  const CompressedFiles compressed(files);
   const Start start = startOf(options);
   Workspace workspace(start.folder);
   Mailbox mailbox(options.limits.commands);
@@ -109,7 +113,7 @@ int studio(const StudioOptions& options) {
   if (!start.scene.empty()) worker.openFirst(start.scene);
   const Address before = addressOf(worker.addressBefore());
   std::unique_ptr<Dispatcher> dispatcher;  // its token depends on the port
-  const NetHandlers handlers{[&](const Request& request) { return pageAnswer(files, request); },
+  const NetHandlers handlers{[&](const Request& request) { return pageAnswer(files, compressed, request); },
                              [&](SocketId from, const std::string& text) { return dispatcher->message(from, text); },
                              [&](SocketId socket) { dispatcher->gone(socket); }};
   const std::unique_ptr<Net> server = listen(options, before.port, handlers);

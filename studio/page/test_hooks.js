@@ -61,7 +61,7 @@ export function addTestHooks({ store, view, overlay, timeline, connection, gestu
     log.frames.push(performance.now());
   };
   Object.assign(globalThis, { carom: {
-    store, gesture, latency, log, connection, poseAt,
+    store, view, gesture, latency, log, connection, poseAt,
     invalidate: () => view.invalidate(),
     shaders: () => view.renderer.info.programs?.map((program) => /** @type {any} */ (program).id) ?? [],
     frames: () => view.frames,

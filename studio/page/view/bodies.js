@@ -4,11 +4,13 @@
 import * as THREE from 'three';
 import { colours } from '../colours.js';
 import { poseAt } from '../motion.js';
+import { Crowd } from './crowd.js';
 import { pipsFor } from './pips.js';
+import { paintOf, setGlow } from './shading.js';
 
 /** @typedef {import('../types.js').Shape} Shape */
 /** @typedef {import('../types.js').State} State */
-/** @typedef {THREE.Mesh<THREE.BufferGeometry, THREE.MeshLambertMaterial[]>} BodyMesh */
+/** Two paints, by shade; userData: {body, inks}, the colours of these. @typedef {THREE.Mesh<THREE.BufferGeometry, import('./shading.js').Paint[]>} BodyMesh */
 
 /** @param {Shape} shape */
 export function geometryOf(shape) {
@@ -43,35 +45,43 @@ export class Bodies {
     this.meshes = [];
     /** @type {import('../types.js').SceneShapes | null} */
     this.shown = null;
+    this.crowd = new Crowd();
+    this.fast = false;
   }
 
   /** @param {State} state */
-  update({ scene, motion, time, selected }) {
-    if (scene !== this.shown) this.rebuild(scene);
-    this.group.visible = !!motion;
+  update({ scene, motion, time, selected, quality }) {
+    const fast = quality === 'low';
+    if (scene !== this.shown || fast !== this.fast) this.rebuild(scene, fast);
+    this.group.visible = this.crowd.group.visible = !!motion;
     if (!motion) return;
     this.meshes.forEach((mesh, body) => {
       const track = motion.tracks[body];
       if (track) place(mesh, track, Math.min(time, motion.end));
-      for (const material of mesh.material) material.emissive.set(body === selected ? 0x0a1018 : 0);
+      for (const paint of mesh.material) setGlow(paint, body === selected ? 0x0a1018 : 0);
     });
+    this.crowd.update(this.meshes, selected);
   }
 
-  /** @param {State['scene']} scene */
-  rebuild(scene) {
-    const kept = new Map(this.shown?.shapes.map((shape) => [shape, this.meshes[shape.body]]));
+  /** @param {State['scene']} scene @param {boolean} fast where software draws */
+  rebuild(scene, fast) {
+    const old = this.shown?.shapes.filter(({ body }) => this.meshes[body]).map((shape) => /** @type {const} */ ([shape, this.meshes[shape.body]]));
+    const kept = new Map(old), same = fast === this.fast;
+    this.fast = fast;
     this.shown = scene;
     this.group.clear();
     this.meshes = [];
     for (const shape of scene?.shapes ?? []) {
       if (shape.plane) continue;
-      const mesh = kept.get(shape) ?? meshOf(shape);
-      kept.delete(shape);
+      const mesh = (same && kept.get(shape)) || meshOf(shape, fast);
+      if (same) kept.delete(shape);
+      mesh.visible = true;
       this.meshes[shape.body] = mesh;
       this.group.add(mesh);
     }
+    this.crowd.rebuild(scene?.shapes ?? [], this.meshes, fast);
     for (const mesh of kept.values()) {
-      mesh?.traverse((part) => {
+      mesh.traverse((part) => {
         const { geometry, material } = /** @type {THREE.Mesh} */ (part);
         geometry.dispose();
         for (const one of [material].flat()) one.dispose();
@@ -103,12 +113,12 @@ export class Bodies {
   }
 }
 
-/** @param {Shape} shape */
-function meshOf(shape) {
+/** @param {Shape} shape @param {boolean} fast @returns {BodyMesh} */
+function meshOf(shape, fast) {
   const colour = shape.fixed ? colours.fixed : shape.colour;
   const light = new THREE.Color(colour).lerp(new THREE.Color('#ffffff'), 0.45);
-  const materials = [colour, light].map((color) => new THREE.MeshLambertMaterial({ color, flatShading: !shape.normals }));
-  const mesh = new THREE.Mesh(geometryOf(shape), materials);
+  const inks = [new THREE.Color(colour), light], mesh = new THREE.Mesh(geometryOf(shape), inks.map((ink) => paintOf(ink, { fast, flat: !shape.normals })));
+  mesh.userData = { body: shape.body, inks };
   mesh.castShadow = mesh.receiveShadow = true;
   const pips = pipsFor(shape);
   if (pips) mesh.add(pips);

@@ -107,7 +107,7 @@ export class Ghosts {
     let set = this.sets.get(key);
     if (!set || set.count < times.length || set.geometry !== body.geometry) {
       if (set) this.drop(key, set);
-      const meshes = pair(order, times.length, body.geometry, colour, opacity, body.material[0].flatShading);
+      const meshes = pair(order, times.length, body.geometry, colour, opacity, !body.geometry.hasAttribute('normal'));
       set = { meshes, count: times.length, geometry: body.geometry };
       this.sets.set(key, set);
       this.group.add(...meshes);

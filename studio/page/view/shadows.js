@@ -6,6 +6,8 @@ import { centreAt, moves } from '../motion.js';
 
 /** @typedef {import('../types.js').State} State */
 
+/** Of more moving bodies none has one. */
+const most = 50;
 const down = new THREE.Vector3(0, 0, -1), upwards = new THREE.Vector3(0, 0, 1);
 
 function softDisc() {
@@ -33,12 +35,13 @@ export class Shadows {
 
   /** @param {State} state @param {(THREE.Mesh | undefined)[]} bodies */
   update({ scene, motion, time }, bodies) {
+    const moving = motion?.tracks.filter((track) => !scene?.shapes[track.body]?.fixed && moves(track)) ?? [];
     const fixed = scene?.shapes.filter((s) => s.fixed && !s.plane).flatMap((s) => bodies[s.body] ?? []) ?? [];
     const planes = scene?.shapes.filter((s) => s.plane) ?? [];
     let used = 0;
-    for (const track of motion?.tracks ?? []) {
+    for (const track of moving.length <= most ? moving : []) {
       const shape = scene?.shapes[track.body];
-      if (!shape || shape.fixed || !moves(track) || used >= 50) continue;
+      if (!shape) continue;
       const x = new THREE.Vector3(...centreAt(track, Math.min(time, motion?.end ?? 0)));
       const below = this.below(x, fixed, planes, motion?.tracks ?? []);
       if (!below) continue;

@@ -5,17 +5,21 @@ import * as THREE from 'three';
 
 /** @typedef {import('../types.js').SceneShapes} SceneShapes */
 
-const towards = new THREE.Vector3(-1.2, -2.4, 3).normalize();
+/** Lights by colour and intensity; towards: where they come from. The sky is up along y, as three.js has it. */
+export const sunLight = { colour: '#ffffff', intensity: 2, towards: new THREE.Vector3(-1.2, -2.4, 3).normalize() };
+export const fillLight = { colour: '#bfd4ff', intensity: 0.6, towards: new THREE.Vector3(2, 1, 0.5).normalize() };
+export const skyLight = { colour: '#ffffff', ground: '#868c94', intensity: 1.45 };
+const { towards } = sunLight;
 
 export class Lights {
   constructor() {
-    this.sun = new THREE.DirectionalLight(0xffffff, 2);
-    this.fill = new THREE.DirectionalLight(0xbfd4ff, 0.6);
-    this.fill.position.set(2, 1, 0.5);
+    this.sun = new THREE.DirectionalLight(sunLight.colour, sunLight.intensity);
+    this.fill = new THREE.DirectionalLight(fillLight.colour, fillLight.intensity);
+    this.fill.position.copy(fillLight.towards);
     this.sun.position.copy(towards);
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.radius = 3;
-    this.all = [new THREE.HemisphereLight(0xffffff, 0x868c94, 1.45), this.sun, this.sun.target, this.fill];
+    this.all = [new THREE.HemisphereLight(skyLight.colour, skyLight.ground, skyLight.intensity), this.sun, this.sun.target, this.fill];
     /** @type {SceneShapes | null} */
     this.around = null;
   }

@@ -15,6 +15,7 @@ import { Paths } from './paths.js';
 import { FrameWatch } from './quality.js';
 import { Shadows } from './shadows.js';
 import { Lights } from './sun.js';
+import { Walls } from './walls.js';
 
 /** @typedef {import('../types.js').State} State */
 
@@ -39,6 +40,7 @@ export class View {
     this.camera = new Camera(input, () => this.invalidate());
     this.bodies = new Bodies();
     this.hidden = new Hidden(this.bodies, this.camera.camera);
+    this.walls = new Walls();
     this.ghosts = new Ghosts();
     this.paths = new Paths();
     this.ground = new Ground();
@@ -47,7 +49,7 @@ export class View {
     this.outline = new Outline();
     this.glide = new Glide(() => matchMedia('(prefers-reduced-motion: reduce)').matches);
     this.shown = store.state;
-    this.scene.add(this.ground.group, this.shadows.group, this.bodies.group, this.outline.mesh, this.paths.group, this.ghosts.group, ...this.lights.all);
+    this.scene.add(this.ground.group, this.shadows.group, this.bodies.group, this.bodies.crowd.group, this.outline.mesh, this.paths.group, this.ghosts.group, ...this.lights.all);
     this.quality = store.state.quality;
     this.renderer = this.makeRenderer(this.quality);
     new ResizeObserver(() => this.resize(resized)).observe(host);
@@ -118,6 +120,7 @@ export class View {
   render(state, gone, share) {
     this.lights.update(state.scene, this.renderer.shadowMap.enabled);
     this.bodies.update(state);
+    this.walls.update(state, this.bodies.meshes, this.camera.camera);
     this.ground.update(state);
     this.shadows.update(state, this.bodies.meshes);
     this.outline.update(state, this.bodies.meshes, this.camera.width, this.camera.height);
