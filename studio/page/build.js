@@ -4,7 +4,7 @@
 
 import { TargetSender } from './connection.js';
 import { rotate } from './motion.js';
-import { along, dot, minus } from './tools/move.js';
+import { along, axisOf, dot, minus } from './tools/move.js';
 
 /** @typedef {import('./types.js').Vec3} Vec3 */
 /** @typedef {import('./types.js').Quat} Quat */
@@ -33,7 +33,7 @@ export function fileFrom(file, document) {
   return [...from.map(() => '..'), ...to].join('/');
 }
 
-/** s: an arrow of a throw is as long as the body would go in that time. */
+/** s: an arrow of a throw is as long as the body would go in that time, and a ring of a spin is turned as far as the body would. */
 export const arrowSeconds = 0.1;
 
 /** The nearest surface below the pointer, with the side of it that is seen; planes as well.
@@ -53,12 +53,16 @@ export function surfaceUnder(view, { scene, motion, time }, x, y, except = -1) {
 }
 
 /** The edits that a target of a drag means, where the drag is one of the document's numbers; else null: the throw follows.
- * @param {State} state @param {import('./types.js').Hit} hit @param {boolean} turns @returns {((target: DragTarget) => Edit[]) | null} */
+ * @param {State} state @param {import('./types.js').Hit} hit @param {boolean | {swept: number}} turns by a tool that has swept an angle, rad
+ * @returns {((target: DragTarget) => Edit[]) | null} */
 export function placing({ document, motion }, hit, turns) {
   const controls = document?.controls ?? [], body = document?.bodies[hit.body], track = motion?.tracks[hit.body];
   if (!body?.position || !body.orientation || !track) return null;
   const { position, orientation } = body, at = `/bodies/${hit.body}`, { center } = track, { place: from } = hit;
   if (hit.handle === 'throw') return ({ place }) => [{ pointer: `${at}/velocity`, value: neat(along(body.velocity ?? [0, 0, 0], minus(place, from), 1 / arrowSeconds)) }];
+  if (hit.handle?.startsWith('spin ') && typeof turns === 'object') {
+    return () => [{ pointer: `${at}/angular_velocity`, value: neat(along(body.angular_velocity ?? [0, 0, 0], axisOf(hit.handle?.slice(5) ?? '', orientation) ?? [0, 0, 0], turns.swept / arrowSeconds)) }];
+  }
   const own = hit.kind === 'body' || hit.kind === 'handle' || hit.kind === 'path';
   if (!own || !(hit.time === 0 || body.fixed) || controls.some((one) => one.body === body.name && one.vary === (turns ? 'orientation' : 'position'))) return null;
   if (!turns) return ({ place }) => [{ pointer: `${at}/position`, value: neat(along(position, minus(place, from), 1)) }];

@@ -120,7 +120,7 @@ export class Gesture {
   grab() {
     const { hit } = this.now, { document, motion } = this.store.state;
     if (!hit || !document || !motion || !this.tool) return;
-    const gesture = ++this.number, edits = placing(this.store.state, hit, this.tool instanceof Turn);
+    const gesture = ++this.number, edits = placing(this.store.state, hit, this.tool instanceof Turn && this.tool);
     if (edits) {
       this.put({ number: gesture, seq: 0, answered: -1 });
       this.sender = new PlaceSender({ request: (type, members) => this.connection.request(type, members), rev: document.rev, gesture, edits,

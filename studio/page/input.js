@@ -9,7 +9,7 @@ import { openDialog } from './dialogs/open.js';
 
 /** @typedef {{store: import('./store.js').Store<import('./types.js').State>, gesture: import('./gesture.js').Gesture, facing: import('./facing.js').Facing,
  *    commands: import('./commands.js').Commands, overlay: import('./overlay/overlay.js').Overlay,
- *    view: import('./view/view.js').View, frame: (body: number) => void}} Parts */
+ *    view: import('./view/view.js').View, frame: (body: number, anew?: boolean, side?: 'front' | 'side' | 'top') => void}} Parts */
 
 /** ms, between targets that are sent before the frame of their move: 1000 moves a second come from some mice. */
 const earlySpacing = 7;
@@ -165,7 +165,7 @@ export function listenToKeys({ store, gesture, facing, commands, frame, overlay,
       earlier: () => commands.stepFrame(-1), later: () => commands.stepFrame(1), 'impact before': () => commands.stepImpact(-1),
       'impact after': () => commands.stepImpact(1), 'body before': () => commands.selectNext(-1), 'body after': () => commands.selectNext(1),
       start: () => commands.seek(0), end: () => commands.seek(Infinity),
-      frame: () => frame(selected), 'frame all': () => frame(-1), before: () => store.set({ showBefore: 'opened' }),
+      frame: () => frame(selected), 'frame all': () => frame(-1), front: () => frame(-1, false, 'front'), side: () => frame(-1, false, 'side'), top: () => frame(-1, false, 'top'), before: () => store.set({ showBefore: 'opened' }),
     };
     /** @type {Partial<Record<import('./keys.js').Action, () => void>>} */
     const once = {

@@ -3,7 +3,7 @@
 
 /** @typedef {'move' | 'turn' | 'throw' | 'face' | 'nail' | 'remove' | 'axis x' | 'axis y' | 'axis z' | 'lift' | 'confirm' | 'cancel' | 'play' |
  *    'earlier' | 'later' | 'impact before' | 'impact after' | 'start' | 'end' | 'undo' | 'redo' | 'save' | 'open' |
- *    'frame' | 'frame all' | 'before' | 'panel' | 'keys' | 'body before' | 'body after'} Action */
+ *    'frame' | 'frame all' | 'front' | 'side' | 'top' | 'before' | 'panel' | 'keys' | 'body before' | 'body after'} Action */
 
 /** @type {{action: Action, name: string, blender: string[], maya: string[]}[]} */
 export const keyTable = [
@@ -34,6 +34,9 @@ export const keyTable = [
   { action: 'open', name: 'open', blender: ['Ctrl+O'], maya: ['Ctrl+O'] },
   { action: 'frame', name: 'frame the selected body', blender: ['F'], maya: ['F'] },
   { action: 'frame all', name: 'frame everything', blender: ['A'], maya: ['A'] },
+  { action: 'front', name: 'from the front', blender: ['1'], maya: ['1'] },
+  { action: 'side', name: 'from the right', blender: ['3'], maya: ['3'] },
+  { action: 'top', name: 'from above', blender: ['7'], maya: ['7'] },
   { action: 'before', name: 'hold: the motion as opened', blender: ['B'], maya: ['B'] },
   { action: 'panel', name: 'fold the panel', blender: ['N'], maya: ['N'] },
   { action: 'keys', name: 'this sheet', blender: ['?'], maya: ['?'] },

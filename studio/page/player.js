@@ -10,7 +10,8 @@ export function showPlayer(store, commands) {
   play.addEventListener('click', () => commands.togglePlay());
   loop.addEventListener('click', () => store.set({ loop: !store.state.loop }));
   speed.addEventListener('change', () => store.set({ speed: Number(speed.value) }));
-  store.on(['time'], ({ time }) => (shown.textContent = `${time.toFixed(3)} s`));
+  shown.title = 'time, and the frame';
+  store.on(['time', 'dots'], ({ time, dots }) => (shown.textContent = `${time.toFixed(3)} s${dots ? ` · ${Math.floor(time * dots + 1e-6)}` : ''}`));
   store.on(['loop'], (state) => loop.setAttribute('aria-pressed', String(state.loop)));
   let last = 0, wanted = 0;
   /** @param {number} now ms */

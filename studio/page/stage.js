@@ -7,8 +7,8 @@ import { frameView } from './view/framing.js';
 import { View } from './view/view.js';
 
 /** @param {import('./store.js').Store<import('./types.js').State>} store @param {boolean} shadowMap whether high quality may have one
- * @returns {{view: View, overlay: Overlay, frame: (body: number, anew?: boolean) => void,
- *    picture: () => Promise<Blob | null>, small: (motion: import('./types.js').Motion, canvas: HTMLCanvasElement) => void}} `frame`: shows a body, -1: everything;
+ * @returns {{view: View, overlay: Overlay, frame: (body: number, anew?: boolean, side?: 'front' | 'side' | 'top') => void,
+ *    picture: () => Promise<Blob | null>, small: (motion: import('./types.js').Motion, canvas: HTMLCanvasElement) => void}} `frame`: shows a body, -1: everything, from a side where one is named;
  *    `picture`: what is seen, as a PNG; `small`: draws another motion, as it would be seen, into a canvas */
 export function makeStage(store, shadowMap) {
   const canvas = /** @type {HTMLCanvasElement} */ (byId('overlay'));
@@ -27,5 +27,5 @@ export function makeStage(store, shadowMap) {
   });
   const small = (/** @type {import('./types.js').Motion} */ motion, /** @type {HTMLCanvasElement} */ place) =>
     view.drawSmall({ ...store.state, motion, preview: null, before: null, hover: null, time: Math.min(store.state.time, motion.end) }, place);
-  return { view, overlay, picture, small, frame: (body, anew = false) => frameView(view, store.state, body, anew) };
+  return { view, overlay, picture, small, frame: (body, anew = false, side = undefined) => frameView(view, store.state, body, anew, side) };
 }

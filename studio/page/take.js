@@ -30,9 +30,9 @@ export function toolFor(state, space, hit, from) {
   if (!track) throw new Error('a body without a track is held');
   const { view, right, up } = space.camera(), handle = hit.handle ?? '';
   const turn = turnAt(track, hit.time);
-  if (hit.kind !== 'nail' && (handle.startsWith('ring') || (!handle && tool === 'turn'))) {
+  if (hit.kind !== 'nail' && (/^(ring|spin) /.test(handle) || (!handle && tool === 'turn'))) {
     const centre = space.project(hit.place);
-    return new Turn({ start: hit.place, turn, view, right, up, pointer: from, centre, axis: handle.replace('ring ', '') });
+    return new Turn({ start: hit.place, turn, view, right, up, pointer: from, centre, axis: handle.slice(5) });
   }
   const ray = space.ray(...from), touched = handle || placing(state, hit, false) ? null : space.touched(hit);
   if (touched) return new Slide({ turn, ray, view, touched });

@@ -17,12 +17,16 @@ const arrowPixels = 72, ringPixels = 64, ringSegments = 48;
 /** @param {'move' | 'turn'} tool @param {Vec3} place @param {number} per_pixel m there @param {Project} project
  * @returns {HandleShape[]} */
 export function handleShapes(tool, place, per_pixel, project) {
-  return tool === 'move' ? [...squares(place, per_pixel, project), ...arrows(place, per_pixel, project)] : rings(place, per_pixel, project);
+  return tool === 'move' ? [...squares(place, per_pixel, project), ...arrows(place, per_pixel, project)] : rings('ring', place, per_pixel, project);
 }
+
+/** What a body is thrown by at the start: the arrow of its velocity, and rings of its spin. @param {Vec3} place @param {Vec3} velocity m/s
+ * @param {number} per_pixel m there @param {Project} project @returns {HandleShape[]} */
+export const throwHandles = (place, velocity, per_pixel, project) => [throwArrow(place, velocity, project), ...rings('spin', place, per_pixel, project)];
 
 /** The velocity at the start, as an arrow from the centre; a body at rest has a short one upwards. @param {Vec3} place @param {Vec3} velocity m/s
  * @param {Project} project @returns {HandleShape} */
-export function throwArrow(place, velocity, project) {
+function throwArrow(place, velocity, project) {
   const still = Math.hypot(...velocity) < 1e-9;
   return { name: 'throw', colour: colours.accent, points: [project(place), project(along(place, still ? [0, 0, 0.3] : velocity, arrowSeconds))], fill: false };
 }
@@ -46,15 +50,15 @@ function squares(place, per_pixel, project) {
   });
 }
 
-/** @param {Vec3} place @param {number} per_pixel @param {Project} project @returns {HandleShape[]} */
-function rings(place, per_pixel, project) {
+/** @param {string} kind @param {Vec3} place @param {number} per_pixel @param {Project} project @returns {HandleShape[]} */
+function rings(kind, place, per_pixel, project) {
   return Object.entries(axes).map(([name, axis]) => {
     const u = cross(axis, name === 'x' ? axes.y : axes.x), v = cross(axis, u), size = ringPixels * per_pixel;
     const points = Array.from({ length: ringSegments + 1 }, (_, i) => {
       const a = (2 * Math.PI * i) / ringSegments;
       return project(along(along(place, u, size * Math.cos(a)), v, size * Math.sin(a)));
     });
-    return { name: `ring ${name}`, colour: axisColour(name), points, fill: false };
+    return { name: `${kind} ${name}`, colour: axisColour(name), points, fill: false };
   });
 }
 

@@ -3,7 +3,7 @@
 
 import { impactAt, moves, pathTimes, pointAt, velocityAt } from '../motion.js';
 import { sagOf } from '../view/paths.js';
-import { drawHandles, handleShapes, handleUnder, throwArrow } from './handles.js';
+import { drawHandles, handleShapes, handleUnder, throwHandles } from './handles.js';
 import { drawHoops, nailPlaces, placeHeld } from './hoops.js';
 import { drawChangedImpacts, drawDots, drawHeld, drawHover, drawImpacts, drawRests } from './marks.js';
 import { drawNames } from './names.js';
@@ -71,7 +71,7 @@ export class Overlay {
     const placed = (time === 0 || fixed) && !!this.store.state.document?.bodies[selected]?.position && !scene?.shapes[selected]?.plane;
     if (fixed ? !placed : !placed && !moves(track)) return [];
     const place = pointAt(track, track.center, Math.min(time, motion.end));
-    if (tool === 'throw') return fixed || time !== 0 ? [] : [throwArrow(place, velocityAt(track, 0), this.project)];
+    if (tool === 'throw') return fixed || time !== 0 ? [] : throwHandles(place, velocityAt(track, 0), this.scale * this.view.camera.axes().perPixel(place), this.project);
     return tool === 'face' ? [] : handleShapes(tool, place, this.scale * this.view.camera.axes().perPixel(place), this.project);
   }
 

@@ -57,7 +57,7 @@ export class Turn {
     this.previous = now;
     if (axis) {
       this.angle += dot(axis, this.view) > 0 ? -step : step;
-      this.last = multiply(turnAbout(axis, this.snap ? toStep(this.angle, this.snap) : this.angle), this.turn);
+      this.last = multiply(turnAbout(axis, this.swept), this.turn);
     } else {
       const dx = (pointer[0] - this.pointer[0]) * radiansPerPixel, dy = (pointer[1] - this.pointer[1]) * radiansPerPixel;
       this.last = multiply(multiply(turnAbout(this.up, dx), turnAbout(this.right, dy)), this.turn);
@@ -88,6 +88,11 @@ export class Turn {
   answer() {
     this.last = unit(this.last);
     return { place: this.start, orientation: this.last };
+  }
+
+  /** rad, about the axis that it is held to; in steps, where there are such. */
+  get swept() {
+    return this.snap ? toStep(this.angle, this.snap) : this.angle;
   }
 
   /** rad, from where it was taken */

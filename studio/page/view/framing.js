@@ -11,9 +11,13 @@ import { centreAt, moves, pathTimes } from '../motion.js';
 const sides = [[0.16, -1, 0.3], [0.16, -1, 0.8], [-0.9, -1, 0.7], [0.16, 1, 0.3], [0.16, -0.7, 1.6]];
 const mostHidden = 0.25, looks = 60;
 
+/** Sides by name, where the camera is then; above, a little from the front, so that x is to the right. @type {Record<'front' | 'side' | 'top', Vec3>} */
+export const namedSides = { front: [0, -1, 0], side: [1, 0, 0], top: [0, -1e-4, 1] };
+
 /** Shows everything, or one body with its path. @param {import('./view.js').View} view @param {State} state
- * @param {number} body -1: everything @param {boolean} anew from the usual side */
-export function frameView(view, state, body, anew) {
+ * @param {number} body -1: everything @param {boolean} anew from the usual side
+ * @param {'front' | 'side' | 'top'} [side] from that one */
+export function frameView(view, state, body, anew, side) {
   const { scene, motion } = state;
   if (!scene || !motion) return;
   let { min, max } = scene;
@@ -27,7 +31,7 @@ export function frameView(view, state, body, anew) {
   }
   if (anew) view.bodies.update(state);  // which may not have been drawn yet
   view.bodies.group.updateMatrixWorld(true);
-  view.camera.frame(min, max, anew ? bestSide(view, scene, motion) : null);
+  view.camera.frame(min, max, side ? namedSides[side] : anew ? bestSide(view, scene, motion) : null);
   view.invalidate();
 }
 

@@ -23,11 +23,6 @@ export function linesOn(width, height) {
   casings.forEach(({ uniforms }, i) => uniforms.shift.value.set((2 * shifts[i][0]) / width, (2 * shifts[i][1]) / height));
 }
 
-/** Thin lines have casings, or none: of many paths they cost more than all else. @param {boolean} on */
-export function caseThinLines(on) {
-  for (const casing of casings) casing.visible = on;
-}
-
 /** @template {THREE.Object3D} T @param {T} line @param {THREE.Object3D[]} around */
 function cased(line, around) {
   for (const casing of around) {

@@ -5,14 +5,12 @@
 import * as THREE from 'three';
 import { colours, inkOf } from '../colours.js';
 import { centreAt, moves, pathTimes, pointAt } from '../motion.js';
-import { caseThinLines, dashedLine, faintLine, fatLine, thinLine } from './lines.js';
+import { dashedLine, faintLine, fatLine, thinLine } from './lines.js';
 
 /** @typedef {import('../types.js').State} State */
 /** @typedef {import('../types.js').Track} Track */
 
 const turnNumbers = 5, mostBodies = 50;
-/** Where software draws, paths of more bodies have no casing. */
-const mostCased = 6;
 
 /** m: what a chord of a path may be off. @param {State['scene']} scene */
 export function sagOf(scene) {
@@ -52,7 +50,6 @@ export class Paths {
     const { motion, scene, selected } = state, wanted = new Set(), sag = sagOf(scene);
     this.scale = 2500 * sag;
     const shown = motion ? this.shownBodies(state) : [];
-    caseThinLines(state.quality === 'high' || shown.length <= mostCased);
     for (const body of motion ? shown : []) {
       const track = /** @type {NonNullable<typeof motion>} */ (motion).tracks[body], end = motion?.end ?? 0;
       const ink = inkOf(scene?.shapes[body]?.colour ?? colours.fixed);

@@ -8,7 +8,7 @@ const half = Math.SQRT1_2;
 const track = (center) => ({ body: 1, arcs: new Float64Array([0, 1, 2, 3, 0, 0, 0, 0, 0, 0]), turns: new Float32Array([0, 1, 0, 0, 0]), center });
 const state = ({ fixed = false, controls = [], center = [0, 0, 0], orientation = [1, 0, 0, 0] } = {}) => ({
   motion: { tracks: [track([0, 0, 0]), track(center)] },
-  document: { controls, bodies: [{ name: 'floor', fixed: true }, { name: 'box', fixed, position: [1, 2, 3], orientation, velocity: [4, 0, 0] }] },
+  document: { controls, bodies: [{ name: 'floor', fixed: true }, { name: 'box', fixed, position: [1, 2, 3], orientation, velocity: [4, 0, 0], angular_velocity: [1, 2, 3] }] },
 });
 const hit = (more = {}) => ({ kind: 'body', body: 1, time: 0, at: 0, place: [1, 2, 3], ...more });
 
@@ -42,6 +42,8 @@ test('a turn keeps the centre of mass where it is', () => {
 });
 
 test('the arrow of a throw changes the velocity by how far its tip goes', () => {
+  const [spun] = placing(state(), hit({ kind: 'handle', handle: 'spin y' }), { swept: 0.5 })({ place: [1, 2, 3] });
+  assert.deepEqual(spun, { pointer: '/bodies/1/angular_velocity', value: [1, 7, 3] }, 'as far as in a tenth of a second');
   const [{ pointer, value }] = placing(state(), hit({ kind: 'handle', handle: 'throw' }), false)({ place: [1, 2, 3 + 0.2] });
   assert.equal(pointer, '/bodies/1/velocity');
   assert.deepEqual(value, [4, 0, 0.2 / arrowSeconds]);
