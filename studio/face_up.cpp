@@ -169,15 +169,15 @@ class FaceSearch {
       const auto turn = std::ranges::find_if(all, [&](const Quat& s) { return (rest->turn * (s * up_)).z() >= kUp; });
       if (turn == all.end()) return std::nullopt;
       bodyOf(scene).orientation = (bodyOf(scene).orientation * *turn).normalized();
-      rest = restOf(motionOf(scene));
+      rest = restWithRoom(scene);
     }
     for (int k = 0; rest && isUp(*rest) && !stop_.stop_requested(); ++k) {
       Vec3 off = Vec3::Zero();
       if (wanted_.place) off.head<2>() = *wanted_.place - rest->center.head<2>();
-      if (off.norm() <= kPlaceMet * (reach(up_) + reach(-up_))) return isFree(scene) ? rest : std::nullopt;
+      if (off.norm() <= kPlaceMet * (reach(up_) + reach(-up_))) return rest;
       if (k == kShifts) break;
       bodyOf(scene).position += off;
-      rest = restOf(motionOf(scene));
+      rest = restWithRoom(scene);
     }
     return std::nullopt;
   }
@@ -205,13 +205,14 @@ class FaceSearch {
     return content;
   }
 
-  bool isFree(const Scene& scene) const {
+  /// None also where the start would overlap another body, of which no motion can be simulated.
+  std::optional<Rest> restWithRoom(const Scene& scene) const {
     try {
       requireRoom(scene, snapshot_.content.scene);
     } catch (const Overlap&) {
-      return false;
+      return std::nullopt;
     }
-    return true;
+    return restOf(motionOf(scene));
   }
 
   const SessionSnapshot& snapshot_;

@@ -120,7 +120,7 @@ const sameBodies = (a, b) => a.bodies.length === b.bodies.length && a.bodies.eve
 function ofOtherBodies({ motion, selected }, was, now) {
   const name = was.bodies[selected]?.name, came = now.bodies.findIndex((body) => !was.bodies.some((other) => other.name === body.name));
   const stayed = now.bodies.findIndex((body) => body.name === name);
-  return { before: null, opened: motion, savedMotion: null, changesShown: false, hover: null, selected: came >= 0 ? came : stayed };
+  return { bodiesAsOpened: false, before: null, opened: motion, savedMotion: null, changesShown: false, hover: null, selected: came >= 0 ? came : stayed };
 }
 
 /** The play head stays, but goes with an impact or a rest that is held, whose time changes. @param {State} state

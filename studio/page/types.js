@@ -69,7 +69,8 @@
  *    speed: number, loop: boolean, loopRange: [number, number] | null, dots: number, selected: number, hover: Hit | null, tool: 'move' | 'turn' | 'throw' | 'face', adding: number, mesh: string,
  *    gesture: GestureState, nailOnRelease: boolean, leaveRestFree: boolean, turnLeavesPlace: boolean, keymap: 'blender' | 'maya',
  *    locked: ReadonlySet<string>, panel: boolean, quality: 'low' | 'high', notice: Notice | null, card: Notice | null,
- *    facing: FacingState | null, others: Others | null, preview: Motion | null, noticesStay: boolean, selectedNail: number, tab: string, looking: boolean}} State  noticesStay: for tests, which take their time;
+ *    bodiesAsOpened: boolean, facing: FacingState | null, others: Others | null, preview: Motion | null, noticesStay: boolean, selectedNail: number, tab: string, looking: boolean}} State  bodiesAsOpened: none came, went or has another name since;
+ *    noticesStay: for tests, which take their time;
  *    looking: nothing can be changed; preview: of the others, the one that is pointed at; adding: which of `additions` the next press puts down, the one behind them: the file `mesh`; -1: none */
 
 export {};

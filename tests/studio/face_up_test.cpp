@@ -64,6 +64,21 @@ TEST_F(FacesUp, EverySideOfADieIsBroughtUpAtAPlaceByTheSameThrow) {
   }
 }
 
+TEST_F(FacesUp, WhereItsStartWouldOverlapAnotherItIsThrownOtherwise) {
+  Body other = document.scene.bodies[1];
+  other.name = "other", other.fixed = true, other.mass.reset();
+  other.velocity = other.angular_velocity = Vec3::Zero();
+  other.shape = Box{{0.01, 0.01, 0.01}};
+  FaceUp face{0, "die", Vec3(0, 0, 1), Vec2(0.1, 0.1), false};
+  const FaceUpFound free = find(snapshot({}), face);
+  ASSERT_TRUE(free.content);
+  other.position = free.content->scene.bodies[1].position;  // where it would start
+  document.scene.bodies.push_back(other);
+  const FaceUpFound found = find(snapshot({}), face);
+  EXPECT_GT(found.tried, 0);
+  expectUp(found, face);
+}
+
 TEST_F(FacesUp, ItsNailIsMet) {
   const FaceUp face{0, "die", Vec3(0, 1, 0), Vec2(0.2, -0.1), true};
   const FaceUpFound found = find(snapshot({}), face);

@@ -23,9 +23,9 @@ function keep(name, blob) {
 /** @param {import('../store.js').Store<State>} store @param {import('../commands.js').Commands} commands
  * @param {() => Promise<Blob | null>} picture of what is seen */
 export async function exportDialog(store, commands, picture) {
-  const { document, motion, opened } = store.state;
+  const { document, motion, opened, bodiesAsOpened } = store.state;
   if (!document?.open) return;
-  const box = el('input', { type: 'checkbox', checked: motion !== opened && !!opened }), stem = (document.path ?? document.suggested ?? 'motion').replace(/^.*\//, '').replace(/\.json$/, '');
+  const box = el('input', { type: 'checkbox', checked: bodiesAsOpened && motion !== opened && !!opened, disabled: !bodiesAsOpened }), stem = (document.path ?? document.suggested ?? 'motion').replace(/^.*\//, '').replace(/\.json$/, '');
   const answer = await dialog('Export', [el('div', { class: 'choices' },
     ...formats.map(([words, format]) => el('button', { type: 'button', class: 'row', onclick: (/** @type {Event} */ event) => close(event, format) }, words)),
     el('button', { type: 'button', class: 'row', onclick: (/** @type {Event} */ event) => close(event, 'png') }, 'Picture of the view (.png)')),
