@@ -11,13 +11,13 @@ import { moveDialog, tableDialog } from './dialogs/table.js';
 /** @typedef {import('./types.js').State} State */
 
 /** @param {import('./store.js').Store<State>} store @param {import('./commands.js').Commands} commands
- * @param {import('./gesture.js').Gesture} gesture @param {() => Promise<Blob | null>} picture of what is seen */
-export function showHeader(store, commands, gesture, picture) {
+ * @param {import('./gesture.js').Gesture} gesture @param {import('./dialogs/export.js').Pictures} pictures of what is seen */
+export function showHeader(store, commands, gesture, pictures) {
   const undo = button('undo', () => void commands.undo()), redo = button('redo', () => void commands.redo());
   const save = button('save', () => void commands.save());
   button('help', () => void keysDialog(store));
   button('file', () => undefined);
-  showMenu(store, commands, gesture, picture);
+  showMenu(store, commands, gesture, pictures);
   showAdding(store, commands);
   store.on(['document', 'connected'], ({ document, connected }) => {
     const usable = connected === 'open' && !!document?.open;
@@ -49,12 +49,12 @@ function names(element, word, what, usable) {
 }
 
 /** @param {import('./store.js').Store<State>} store @param {import('./commands.js').Commands} commands
- * @param {import('./gesture.js').Gesture} gesture @param {() => Promise<Blob | null>} picture */
-function showMenu(store, commands, gesture, picture) {
+ * @param {import('./gesture.js').Gesture} gesture @param {import('./dialogs/export.js').Pictures} pictures */
+function showMenu(store, commands, gesture, pictures) {
   const menu = byId('menu');
   /** @type {[string, () => void][]} */
   const rows = [
-    ['New scene', () => void commands.newScene()], ['Open…', () => void openDialog(commands)], ['Save', () => void commands.save()], ['Save as…', () => void commands.saveAs()], ['Export…', () => void exportDialog(store, commands, picture)],
+    ['New scene', () => void commands.newScene()], ['Open…', () => void openDialog(commands)], ['Save', () => void commands.save()], ['Save as…', () => void commands.saveAs()], ['Export…', () => void exportDialog(store, commands, pictures)],
     ['Move to…', () => void moveDialog(store, gesture)], ['Motion as a table', () => void tableDialog(store)], ['Keys', () => void keysDialog(store)],
   ];
   for (const [name, act] of rows) {

@@ -58,7 +58,7 @@ function start() {
   }
   const store = new Store({ ...initialState(), tab: tabName(), quality: qualityFor(renderer, query.get('quality')) });
   remember(store);
-  const { view, overlay, frame, picture, small } = makeStage(store, isHardware(renderer) || query.get('shadows') === 'map');
+  const { view, overlay, frame, picture, compose, small } = makeStage(store, isHardware(renderer) || query.get('shadows') === 'map');
   /** @type {Gesture | null} */
   let gesture = null;
   const connection = new Connection({
@@ -78,7 +78,7 @@ function start() {
     refused: (error) => commands.tellOverlap(error),
   });
   const commands = new Commands({ store, connection, gesture, view: { frame }, ask, choose, askName });
-  showHeader(store, commands, gesture, picture);
+  showHeader(store, commands, gesture, { picture, compose });
   showNotices(store, { takeRemedy: (name) => void commands.takeRemedy(name) });
   showReadout(store);
   showBodies(store);
