@@ -87,6 +87,14 @@ Json impactsOf(const MotionView& view) {
   return impacts;
 }
 
+Json contactsOf(const MotionView& view) {
+  Json contacts = Json::array();
+  for (const ContactView& contact : view.contacts)
+    contacts.push_back(
+        {{"body", contact.body}, {"on", contact.on}, {"kind", nameOf(contact.kind)}, {"from", contact.from}, {"to", contact.to}});
+  return contacts;
+}
+
 Json trackOf(const DisplayTrack& track, std::size_t body, Blocks& blocks) {
   constexpr std::size_t kParabola = 10, kBend = 19, kTurn = 5;
   const bool straight = std::ranges::all_of(track.arcs, &DisplayTrack::ArcKey::isParabola);
@@ -143,6 +151,7 @@ std::string frameOfMotion(const char* type, const MotionView& view, std::string_
   add(header, "message", view.message);
   add(header, "gravity", listOf(view.gravity));
   add(header, "impacts", impactsOf(view));
+  add(header, "contacts", contactsOf(view));
   add(header, "count", view.tracks.size());
   add(header, "tracks", std::move(tracks));
   return frameOf(header, blocks);

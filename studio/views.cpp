@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/motion/lasting_contact.h"
 #include "adjoint/scene/scene.h"
 #include "formats/drawing/motion_extent.hpp"
 #include "formats/drawing/palette.hpp"
@@ -17,6 +18,7 @@ namespace {
 using namespace formats_detail;
 
 constexpr double kAnyHalfWidth = 1;  // planes are drawn by the page
+constexpr std::size_t kMostContacts = 2000;
 
 ImpactView impactOf(const Event& event) {
   ImpactView impact;
@@ -42,10 +44,27 @@ ImpactView impactOf(const Event& event) {
   return impact;
 }
 
+// Those of one body with several others at once are one.
+std::vector<ContactView> contactsOf(const Motion& motion) {
+  std::vector<ContactView> views;
+  for (const LastingContact& c : lastingContacts(motion)) {
+    const auto same = std::find_if(views.rbegin(), views.rend(), [&](const ContactView& v) {
+      return v.body == c.body && v.kind == c.kind && v.from == c.from && v.to == c.to;
+    });
+    if (same != views.rend()) {
+      same->on.insert(std::lower_bound(same->on.begin(), same->on.end(), c.with), c.with);
+    } else if (views.size() < kMostContacts) {
+      views.push_back({c.body, {c.with}, c.kind, c.from, c.to});
+    }
+  }
+  return views;
+}
+
 }  // namespace
 
 MotionView viewOf(const Motion& motion) {
-  MotionView view{motion.scene->gravity, motion.end, motion.status, motion.message, {}, {}, 0};
+  MotionView view{motion.scene->gravity, motion.end, motion.status, motion.message, {}, {}, {}, 0};
+  if (motion.has_events) view.contacts = contactsOf(motion);
   for (const Event& event : motion.events)
     if (event.counts()) view.impacts.push_back(impactOf(event));
   for (int body = 0; body < static_cast<int>(motion.scene->bodies.size()); ++body)

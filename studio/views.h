@@ -25,6 +25,16 @@ struct ImpactView {
   bool operator==(const ImpactView&) const = default;  ///< the same numbers
 };
 
+/// A stretch of persistent contact: a body rests, slides, rolls, pivots or rides on others (LastingContact).
+struct ContactView {
+  int body = -1;
+  std::vector<int> on;            ///< in increasing order
+  ArcKind kind = ArcKind::rest;   ///< what it does there
+  double from = 0, to = 0;        ///< s
+
+  bool operator==(const ContactView&) const = default;  ///< the same numbers
+};
+
 /// A motion.
 struct MotionView {
   Vec3 gravity = Vec3::Zero();                   ///< of the scene, m/s^2
@@ -32,6 +42,7 @@ struct MotionView {
   MotionStatus status = MotionStatus::complete;  ///< why it ends there
   std::string message;                           ///< one sentence
   std::vector<ImpactView> impacts;               ///< in increasing order of time
+  std::vector<ContactView> contacts;             ///< in increasing order of their start, at most 2000
   std::vector<DisplayTrack> tracks;              ///< one a body, fixed ones included
   std::int64_t scene = 0;                        ///< of which scene: counted as they are opened
 };

@@ -56,7 +56,7 @@ export function motionOf(frame, before) {
     distance: header.distance ?? 0, turn: header.turn ?? 0, nailError: header.nail_error ?? 0,
     stopped: header.stopped ?? false, more: header.more ?? false, obstacle: obstacleOf(header.obstacle),
     changes: header.changes ?? [], end: header.end, status: header.status ?? '', message: header.message ?? '',
-    gravity: header.gravity ?? [0, 0, 0], impacts: header.impacts ?? [], tracks, gesture: header.gesture, seq: header.seq, re: header.re,
+    gravity: header.gravity ?? [0, 0, 0], impacts: header.impacts ?? [], contacts: header.contacts ?? [], tracks, gesture: header.gesture, seq: header.seq, re: header.re,
   };
 }
 

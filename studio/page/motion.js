@@ -138,6 +138,19 @@ export function metBy({ pairs }, body) {
   return pairs.flatMap(([a, b]) => (a === body ? [b] : b === body ? [a] : []));
 }
 
+const verbs = /** @type {Record<string, string>} */ ({ rest: 'rests', slide: 'slides', roll: 'rolls', pivot: 'pivots', ride: 'rides' });
+
+/** What a body lies on at a time: "rests on left and right", or '' where it lies on nothing. @param {import('./types.js').Motion} motion
+ * @param {number} body @param {number} time @param {string[]} names */
+export function lyingOn({ contacts, end }, body, time, names) {
+  const now = contacts.filter((one) => one.body === body && one.from <= time && (time < one.to || one.to === end));
+  const parts = now.map(({ kind, on }) => {
+    const whom = on.map((other) => names[other]), last = whom.pop();
+    return `${verbs[kind]} on ${whom.length ? `${whom.join(', ')} and ` : ''}${last}`;
+  });
+  return parts.join(', ');
+}
+
 /** An impact as documents name it: the body's n-th with the first that it meets there.
  * @param {import('./types.js').Impact[]} impacts in order of time @param {import('./types.js').Impact} impact
  * @param {number} body @param {string[]} names @returns {import('./types.js').When} */

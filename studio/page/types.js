@@ -33,9 +33,11 @@
 /** A track: see motion.js.
  * @typedef {{body: number, arcs: Float64Array, stride?: number, turns: Float32Array,
  *    center: Vec3}} Track  stride: numbers a row of arcs, 10 unless it says so */
+/** A stretch in which a body rests, slides, rolls, pivots or rides on others.
+ * @typedef {{body: number, on: number[], kind: string, from: number, to: number}} ContactStretch */
 /** @typedef {{rev: number, stage: string, reached: boolean, distance: number, turn: number, nailError: number,
  *    stopped: boolean, more: boolean, obstacle: Obstacle | null, changes: SequenceChange[], end: number,
- *    status: string, message: string, gravity: Vec3, impacts: Impact[], tracks: Track[], gesture?: number, seq?: number,
+ *    status: string, message: string, gravity: Vec3, impacts: Impact[], contacts: ContactStretch[], tracks: Track[], gesture?: number, seq?: number,
  *    re?: number}} Motion  everything that the page knows about one motion; tracks in the order of bodies */
 /** @typedef {{body: number, name: string, fixed: boolean, plane: {normal: Vec3, offset: number} | null,
  *    colour: string, vertices: Float32Array, normals: Float32Array | null, triangles: Uint32Array | null,

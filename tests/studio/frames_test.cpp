@@ -118,6 +118,16 @@ TEST(MotionFrame, TheMiddleOfABallOnAFloorIsBelowIt) {
   test::expectEntries(Vec3(point[0], point[1], point[2]), Vec3(1, 2, 0), 1e-12, "point");
 }
 
+TEST(MotionFrame, SaysWhoLiesOnWhom) {
+  const Scene scene = test::makeScene({0, 0, -9.81}, 0, 0.5,
+                                      {test::fixedBody(test::makeBox("floor", {9, 9, 1}, {0, 0, -0.5})), test::makeBox("left", {1, 1, 1}, {-0.6, 0, 0.5}),
+                                       test::makeBox("right", {1, 1, 1}, {0.6, 0, 0.5}), test::makeBox("top", {1, 1, 1}, {0, 0, 1.5})});
+  OdeContacts contacts(scene);
+  const DecodedFrame frame(motionFrame(viewOf(simulate(scene, contacts, 1))));
+  EXPECT_EQ(frame.header.at("contacts"), nlohmann::json::parse(R"([{"body": 1, "on": [0], "kind": "rest", "from": 0.0, "to": 1.0},
+    {"body": 2, "on": [0], "kind": "rest", "from": 0.0, "to": 1.0}, {"body": 3, "on": [1, 2], "kind": "rest", "from": 0.0, "to": 1.0}])"));
+}
+
 TEST(MotionFrame, TracksThatTheReaderHasAreLeftOut) {
   const Motion motion = exampleMotion("billiard-three-balls");
   MotionView view = viewOf(motion);
@@ -144,7 +154,7 @@ TEST(MotionFrame, MembersOfItsSenderStandInTheHeader) {
   EXPECT_EQ(frame.header.at("type"), "motion");
   for (const char* members : {"", "[]", "3", "{", "{\"a\": 1} {}"})
     expectRefused([&] { motionFrame(view, members); }, "no JSON object");
-  for (const char* member : {"type", "end", "status", "message", "gravity", "impacts", "tracks"})
+  for (const char* member : {"type", "end", "status", "message", "gravity", "impacts", "contacts", "tracks"})
     expectRefused([&] { motionFrame(view, "{\"" + std::string(member) + "\": 1}"); }, member);
   for (const char* member : {"type", "count", "extent", "bodies"})
     expectRefused([&] { sceneFrame({}, "{\"" + std::string(member) + "\": 1}"); }, member);

@@ -3,6 +3,7 @@
 
 import { byId, el } from '../dom.js';
 import { facesOf } from '../faces.js';
+import { lyingOn } from '../motion.js';
 import { numberField } from '../number_field.js';
 
 /** @typedef {import('../types.js').BodyState} BodyState */
@@ -35,7 +36,7 @@ export function rowsOf(body, i) {
 /** @param {import('../store.js').Store<import('../types.js').State>} store @param {Commands} commands
  * @param {import('../facing.js').Facing} facing */
 export function showBody(store, commands, facing) {
-  const place = byId('body'), section = byId('body-section');
+  const place = byId('body'), section = byId('body-section'), lying = byId('lying');
   let structure = '';
   /** @type {((row: Row) => void)[]} */
   let updates = [];
@@ -58,6 +59,11 @@ export function showBody(store, commands, facing) {
   /** Faces that can be up at rest, each a button. @param {number} i @param {import('../faces.js').Face[]} faces */
   const facesRow = (i, faces) => el('div', { class: 'body-row', role: 'group', 'aria-label': 'Face up at rest' }, el('span', { class: 'dim' }, 'face up at rest'), el('div', { class: 'body-faces' },
     ...faces.map((face) => el('button', { type: 'button', onclick: () => facing.begin(i, face) && byId('overlay').focus() }, face.name))));
+  store.on(['motion', 'time', 'selected', 'scene'], ({ motion, time, selected, scene }) => {
+    const words = motion && scene && selected >= 0 ? lyingOn(motion, selected, time, scene.shapes.map(({ name }) => name)) : '';
+    if (lying.textContent !== words) lying.textContent = words;
+    lying.hidden = !words;
+  });
   store.on(['document', 'selected', 'scene'], ({ document, selected, scene }) => {
     const body = document?.open ? document.bodies[selected] : undefined;
     section.hidden = !body?.position;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { atOf, centreAt, moves, multiply, pathTimes, pointAt, poseAt, restTime, rotate, timeOf, turnAbout, turnAt, velocityAt } from '../../../studio/page/motion.js';
+import { atOf, centreAt, moves, multiply, pathTimes, pointAt, poseAt, restTime, rotate, timeOf, turnAbout, turnAt, velocityAt, lyingOn } from '../../../studio/page/motion.js';
 
 const near = (found, expected, tolerance) => {
   assert.equal(found.length, expected.length);
@@ -55,6 +55,17 @@ test('impacts are named as documents name them', () => {
   assert.equal(timeOf({ impact: 3 }, 1, motion, names), 0.3);
   assert.equal(timeOf({ impact: 3, with: 'floor' }, 1, motion, names), null);
   assert.equal(timeOf(2, 1, motion, names), null);
+});
+
+test('what a body lies on at a time', () => {
+  const contacts = [{ body: 2, on: [0, 1], kind: 'rest', from: 0.5, to: 2 }, { body: 1, on: [0], kind: 'slide', from: 0, to: 0.4 }, { body: 3, on: [0, 1, 2], kind: 'ride', from: 1, to: 2 }];
+  const motion = { contacts, end: 2, impacts: [], tracks: [] }, names = ['left', 'right', 'top', 'ball'];
+  assert.equal(lyingOn(motion, 2, 0.5, names), 'rests on left and right');
+  assert.equal(lyingOn(motion, 2, 2, names), 'rests on left and right', 'at the end as well');
+  assert.equal(lyingOn(motion, 2, 0.4, names), '');
+  assert.equal(lyingOn(motion, 1, 0.2, names), 'slides on left');
+  assert.equal(lyingOn(motion, 1, 0.4, names), '');
+  assert.equal(lyingOn(motion, 3, 1.5, names), 'rides on left, right and top');
 });
 
 test('a rest is where what moves moves no more', () => {
