@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "adjoint/base/times.h"
 #include "adjoint/motion/contact_source.h"
 #include "adjoint/scene/scene.h"
 #include "editing/control.h"
@@ -32,5 +33,10 @@ struct MotionFunctionCheck {
 MotionFunctionCheck checkMotionFunction(const Scene& scene, ContactSource& contacts, double duration,
                                         const MotionFunction& function, const std::vector<Control>& controls,
                                         std::stop_token stop = {});
+
+/// A duration is in seconds, no bool and no character.
+template <NoTime T>
+MotionFunctionCheck checkMotionFunction(const Scene& scene, ContactSource& contacts, T duration, const MotionFunction& function,
+                                        const std::vector<Control>& controls, std::stop_token stop = {}) = delete;
 
 }  // namespace carom

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/base/times.h"
 #include "adjoint/base/types.h"
 #include "adjoint/scene/shape.h"
 
@@ -35,12 +36,6 @@ class TargetNumber {
   double number_;
   bool free_ = false;
 };
-
-/// Arithmetic types that are no time in seconds when they are written for one.
-template <class T>
-concept NoTime = std::same_as<T, bool> || std::same_as<T, char> || std::same_as<T, signed char> ||
-                 std::same_as<T, unsigned char> || std::same_as<T, wchar_t> || std::same_as<T, char8_t> ||
-                 std::same_as<T, char16_t> || std::same_as<T, char32_t>;
 
 /// When a constraint holds: at a time; just before the body's n-th impact (1 = first), counting only those with
 /// `with` if not empty; at some time in an interval, which the edit chooses; or when the body has come to rest.

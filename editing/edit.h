@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "adjoint/base/times.h"
 #include "adjoint/motion/motion.h"
 #include "editing/constraint.h"
 #include "editing/control.h"
@@ -37,6 +38,13 @@ class Edit {
   /// With initial controls and constraints.
   Edit(const Scene& scene, ContactSource& contacts, double duration, std::vector<Control> controls,
        std::vector<Constraint> constraints);
+  /// A duration is in seconds, no bool and no character.
+  template <NoTime T>
+  Edit(const Scene& scene, ContactSource& contacts, T duration) = delete;
+  /// The same.
+  template <NoTime T>
+  Edit(const Scene& scene, ContactSource& contacts, T duration, std::vector<Control> controls,
+       std::vector<Constraint> constraints) = delete;
   Edit(const Edit&) = delete;  // nails refer to their edit
   Edit& operator=(const Edit&) = delete;
 

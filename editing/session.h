@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "adjoint/base/times.h"
 #include "adjoint/motion/motion.h"
 #include "editing/constraint.h"
 #include "editing/control.h"
@@ -35,6 +36,9 @@ struct NailState {
 /// State of a constraint in a motion, as of a nail that is on. `duration` is that of the simulation [s], `tolerance` as
 /// SessionOptions::tolerance. Throws InputError for a constraint that is invalid for the scene.
 NailState nailStateIn(const Motion& motion, const Constraint& constraint, double duration, double tolerance);
+/// A duration is in seconds, no bool and no character.
+template <NoTime T>
+NailState nailStateIn(const Motion& motion, const Constraint& constraint, T duration, double tolerance) = delete;
 
 /// Target of the nail left by a drag.
 enum class NailAt {
@@ -75,6 +79,13 @@ class EditSession {
   /// With initial controls and nails; nails need not be met yet.
   EditSession(const Scene& scene, ContactSource& contacts, double duration, std::vector<Control> controls,
               std::vector<Constraint> nails, const SessionOptions& options = {});
+  /// A duration is in seconds, no bool and no character.
+  template <NoTime T>
+  EditSession(const Scene& scene, ContactSource& contacts, T duration, const SessionOptions& options = {}) = delete;
+  /// The same.
+  template <NoTime T>
+  EditSession(const Scene& scene, ContactSource& contacts, T duration, std::vector<Control> controls,
+              std::vector<Constraint> nails, const SessionOptions& options = {}) = delete;
   /// Resumes a session from its history: nothing is solved again, and all undo steps are there, to the same bits. The
   /// options are those of the journal; a session with MeasureFrom::start cannot be resumed.
   EditSession(const SessionHistory& history, ContactSource& contacts);

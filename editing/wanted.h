@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "adjoint/base/times.h"
 #include "editing/constraint.h"
 
 namespace carom {
@@ -15,6 +16,9 @@ struct Wanted {
 
   /// A value.
   Wanted(double v) : value(v) {}  // NOLINT: for position(0.1, any, 2)
+  /// Neither a bool nor a character is a number of a target, least of all a time.
+  template <NoTime T>
+  Wanted(T v) = delete;
   /// Free.
   Wanted(Free) {}  // NOLINT: likewise
   /// A range.
@@ -40,9 +44,19 @@ Target targetOf(std::string quantity, const Wanted& wanted);
 
 /// At least `min` and at most `max`, SI.
 inline Wanted within(double min, double max) { return {min, max}; }
+/// Neither a bool nor a character is a bound.
+template <class From, class To>
+  requires(NoTime<From> || NoTime<To>)
+Wanted within(From min, To max) = delete;
 /// At least this, SI.
 inline Wanted atLeast(double min) { return {min, any}; }
+/// The same.
+template <NoTime T>
+Wanted atLeast(T min) = delete;
 /// At most this, SI.
 inline Wanted atMost(double max) { return {any, max}; }
+/// The same.
+template <NoTime T>
+Wanted atMost(T max) = delete;
 
 }  // namespace carom

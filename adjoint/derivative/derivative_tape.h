@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "adjoint/base/times.h"
 #include "adjoint/motion/motion.h"
 
 namespace carom {
@@ -33,6 +34,9 @@ struct Instant {
 
   /// At a given time, s.
   static Instant at(double time) { return {time, -1}; }
+  /// Neither a bool nor a character is a time.
+  template <NoTime T>
+  static Instant at(T time) = delete;
   /// Just before an event.
   static Instant before(int event) { return {0, event}; }
   /// Just after an event.

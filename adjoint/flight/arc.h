@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "adjoint/base/times.h"
 #include "adjoint/flight/rotation_sensitivity.h"
 #include "adjoint/scene/body_model.h"
 
@@ -87,6 +88,9 @@ class Arc {
   /// Extends the arc so that the functions below can be called up to time t (work only for Tier::triaxial and what is integrated).
   /// Throws InputError for a time that is not finite, NotComputable if the rotation cannot be computed that far.
   void extendTo(double t);
+  /// Neither a bool nor a character is a time.
+  template <NoTime T>
+  void extendTo(T t) = delete;
   /// The functions below can be called up to this time; infinite if everywhere.
   double availableUntil() const;
   /// Of an integrated path, the time up to which it is computed, or its end; otherwise infinite. Later times are not
@@ -105,6 +109,18 @@ class Arc {
   Kinematics kinematicsOf(const State& state) const;
   Vec3 positionAt(double t) const;  ///< m, of the centre of mass
   Vec3 velocityAt(double t) const;  ///< m/s, of the centre of mass
+  /// Neither a bool nor a character is a time.
+  template <NoTime T>
+  State stateAt(T t) const = delete;
+  /// The same.
+  template <NoTime T>
+  Kinematics kinematicsAt(T t) const = delete;
+  /// The same.
+  template <NoTime T>
+  Vec3 positionAt(T t) const = delete;
+  /// The same.
+  template <NoTime T>
+  Vec3 velocityAt(T t) const = delete;
   /// d(state)/dt of the flow at time t, where the state is `state`: (v, omega, acceleration, dL/dt). L is constant in
   /// flight.
   StateDerivative rateAt(double t, const State& state) const;

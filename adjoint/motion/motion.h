@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "adjoint/base/times.h"
 #include "adjoint/motion/contact_source.h"
 #include "adjoint/motion/plan.h"
 
@@ -149,6 +150,9 @@ struct Motion {
   BodyState stateAt(const std::string& body, double t) const;
   /// The same by the index of the body.
   BodyState stateAt(int body, double t) const;
+  /// Neither a bool nor a character is a time.
+  template <class Body, NoTime T>
+  BodyState stateAt(const Body& body, T t) const = delete;
   /// State just before event `event`; of a body that takes no part in it, at its time. Throws InputError for an
   /// invalid event or body, as do all that follow.
   BodyState stateBefore(int event, int body) const;
@@ -161,6 +165,9 @@ struct Motion {
 
   /// Index of the arc that holds time t; the first one before the start, the last one after the end.
   int arcAt(int body, double t) const;
+  /// Neither a bool nor a character is a time.
+  template <NoTime T>
+  int arcAt(int body, T t) const = delete;
 
   /// The impact sequence as text: bodies, features and modes of the first `count` events. Derivatives relate only
   /// motions with equal signatures.

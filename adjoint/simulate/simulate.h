@@ -10,6 +10,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "adjoint/base/times.h"
 #include "adjoint/motion/motion.h"
 
 namespace carom {
@@ -59,5 +60,8 @@ struct SimulateOptions {
 /// duration above 1e9 s; `asked` of the wrong size; a lowest bounce outside of 0 to 1e9 m); ends early, with a status
 /// and a message, if the motion cannot be continued. The same input gives the same motion to the last bit.
 Motion simulate(const Scene& scene, ContactSource& contacts, double duration, const SimulateOptions& options = {});
+/// A duration is in seconds, no bool and no character.
+template <NoTime T>
+Motion simulate(const Scene& scene, ContactSource& contacts, T duration, const SimulateOptions& options = {}) = delete;
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "adjoint/base/times.h"
 #include "adjoint/motion/motion.h"
 
 namespace carom {
@@ -36,5 +37,8 @@ struct MotionAlong {
 /// Throws InputError if `scene` is invalid, or has other bodies, materials or tilts than like's scene.
 MotionAlong simulateAlong(const Motion& like, const Scene& scene, std::shared_ptr<const ContactGeometry> geometry,
                           double duration);
+/// A duration is in seconds, no bool and no character.
+template <NoTime T>
+MotionAlong simulateAlong(const Motion& like, const Scene& scene, std::shared_ptr<const ContactGeometry> geometry, T duration) = delete;
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "adjoint/base/times.h"
 #include "adjoint/motion/motion.h"
 
 namespace carom {
@@ -46,6 +47,12 @@ struct DisplayTrack {
     bool isParabola() const;                         ///< third, fourth and fifth are 0
     Vec3 positionAt(double t) const;                 ///< m, of the centre of mass
     Vec3 velocityAt(double t) const;                 ///< m/s
+    /// Neither a bool nor a character is a time.
+    template <NoTime T>
+    Vec3 positionAt(T t) const = delete;
+    /// The same.
+    template <NoTime T>
+    Vec3 velocityAt(T t) const = delete;
     bool operator==(const ArcKey&) const = default;  ///< the same numbers
   };
   /// An orientation, shape to world.

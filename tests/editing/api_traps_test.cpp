@@ -10,12 +10,32 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/derivative/derivative_tape.h"
 #include "adjoint/derivative/tangent.h"
+#include "adjoint/simulate/simulate.h"
+#include "adjoint/simulate/simulate_along.h"
+#include "editing/check_motion_function.h"
 #include "editing/edit.h"
+#include "editing/session.h"
 #include "editing/session_journal.h"
+#include "formats/drawing/display.h"
+#include "formats/gltf/write/export_gltf.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/editing/scenes.h"
 
 namespace carom {
+
+// What functions are called on that take a time: never evaluated.
+namespace testing_traps {
+const Motion& motion();
+const Scene& scene();
+Arc& arc();
+OdeContacts& source();
+const MotionFunction& function();
+const std::vector<Control>& varied();
+const std::vector<Constraint>& nails();
+const Constraint& nailed();
+Nail& handle();
+}
+
 namespace {
 
 using namespace testing_scenes;
@@ -36,9 +56,45 @@ concept CountsImpacts = requires(Number n) { nthImpact(n); };
 static_assert(CountsImpacts<int> && CountsImpacts<long>);
 static_assert(!CountsImpacts<double> && !CountsImpacts<bool> && !CountsImpacts<char>);
 
-template <class Time>
-concept ReadsAt = requires(const Motion& motion, Time t) { motion.stateAt("ball", t); };
-static_assert(ReadsAt<double> && ReadsAt<int>);
+// Whatever takes a time takes a number of seconds, be it an int, and neither a bool nor a character. One line for each
+// function; F is the call with a time.
+template <class F>
+constexpr bool kTakesTimes = std::invocable<F, double> && std::invocable<F, float> && std::invocable<F, int> && std::invocable<F, long> &&
+                             std::invocable<F, unsigned> && !std::invocable<F, bool> && !std::invocable<F, char> &&
+                             !std::invocable<F, signed char> && !std::invocable<F, unsigned char> && !std::invocable<F, wchar_t> &&
+                             !std::invocable<F, char8_t> && !std::invocable<F, char16_t> && !std::invocable<F, char32_t>;
+#define TAKES_TIMES(...) static_assert(kTakesTimes<decltype([](auto t) requires requires { __VA_ARGS__; } {})>)
+using namespace testing_traps;
+TAKES_TIMES(motion().stateAt("ball", t));
+TAKES_TIMES(motion().stateAt(0, t));
+TAKES_TIMES(motion().stateAt(std::string(), t));
+TAKES_TIMES(motion().arcAt(0, t));
+TAKES_TIMES(arc().extendTo(t));
+TAKES_TIMES(arc().stateAt(t));
+TAKES_TIMES(arc().kinematicsAt(t));
+TAKES_TIMES(arc().positionAt(t));
+TAKES_TIMES(arc().velocityAt(t));
+TAKES_TIMES(Instant::at(t));
+TAKES_TIMES(simulate(scene(), source(), t));
+TAKES_TIMES(simulate(scene(), source(), t, SimulateOptions{}));
+TAKES_TIMES(simulateAlong(motion(), scene(), nullptr, t));
+TAKES_TIMES(Edit(scene(), source(), t));
+TAKES_TIMES(Edit(scene(), source(), t, varied(), nails()));
+TAKES_TIMES(EditSession(scene(), source(), t));
+TAKES_TIMES(EditSession(scene(), source(), t, varied(), nails()));
+TAKES_TIMES(nailStateIn(motion(), nailed(), t, 1e-9));
+TAKES_TIMES(checkMotionFunction(scene(), source(), t, function(), varied()));
+TAKES_TIMES(between(t, 2.0));
+TAKES_TIMES(between(0, t));
+TAKES_TIMES(handle().time(t));
+TAKES_TIMES(handle().time(atLeast(t)));
+TAKES_TIMES(handle().time(atMost(t)));
+TAKES_TIMES(handle().time(within(t, 2.0)));
+TAKES_TIMES(handle().time(within(0, t)));
+TAKES_TIMES(std::declval<DisplayTrack::ArcKey&>().positionAt(t));
+TAKES_TIMES(std::declval<DisplayTrack::ArcKey&>().velocityAt(t));
+TAKES_TIMES(lastFrame(t, 24));
+#undef TAKES_TIMES
 
 // A tape keeps its motion, a tangent its tape, a nail its edit, by reference.
 static_assert(std::is_constructible_v<DerivativeTape, const Motion&>);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "adjoint/base/times.h"
 #include "adjoint/motion/motion.h"
 #include "formats/base/document.h"
 
@@ -43,5 +44,8 @@ std::string gltfText(const Document& document, const Motion& motion, const GltfO
 
 /// The last frame of a motion of this length; frame 0 is its start.
 int lastFrame(double seconds, double frames_per_second);
+/// Neither a bool nor a character is a time.
+template <NoTime T>
+int lastFrame(T seconds, double frames_per_second) = delete;
 
 }  // namespace carom
