@@ -26,11 +26,8 @@ struct ReplayArguments {
   std::string journal, output;
 };
 
-/// "size of 'cup', 0.scale" has its component at the end; that of an orientation is one of a quaternion.
-std::string unitOfNumber(const std::string& name) {
-  if (name.ends_with(".scale") || name.ends_with(", scale") || name.starts_with("orientation")) return "";
-  return unitOf(name);
-}
+/// An orientation is a quaternion here.
+std::string unitOfNumber(const std::string& name) { return name.starts_with("orientation") ? "" : unitOf(name); }
 
 std::string describe(const SessionGesture& gesture) {
   std::string text = nameOf(gesture.kind);

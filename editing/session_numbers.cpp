@@ -18,7 +18,7 @@ void addTurn(const Scene& scene, const BoundControl& bound, int control, std::ve
   for (int k = 0; k < 4; ++k) {
     SessionNumber number;
     number.component = std::string(1, "wxyz"[k]);
-    number.name = describe(bound.control) + ", " + number.component;
+    number.name = describe(bound.control, number.component);
     number.value = parts[k];
     number.control = control;
     number.varies = true;
@@ -36,7 +36,7 @@ void addNumbers(const Scene& scene, const BoundControl& bound, int control, cons
     const Eigen::Index slot = static_cast<Eigen::Index>(k);
     SessionNumber number;
     number.component = components[k];
-    number.name = describe(bound.control) + (components.size() > 1 ? ", " + number.component : "");
+    number.name = describe(bound.control, number.component);
     number.value = values[slot];
     number.control = control;
     // of a number that is weighed by its logarithm, to first order

@@ -12,7 +12,7 @@ namespace carom {
 
 /// A control parameter with its value in the scene.
 struct SessionNumber {
-  std::string name;       ///< "velocity of 'hat', x"
+  std::string name;       ///< "velocity.x of 'hat'"
   double value = 0;       ///< SI
   int control = -1;       ///< index of its Control
   std::string component;  ///< "x", "radius", "value"; of an orientation "w", "x", "y" or "z"

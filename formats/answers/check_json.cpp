@@ -41,7 +41,8 @@ void writeStep(JsonWriter& out, double step, const DifferenceColumn& column) {
 void writeColumn(JsonWriter& out, const EditProblem& problem, const DerivativeCheck& check, int column) {
   const auto c = static_cast<std::size_t>(column);
   const std::vector<DifferenceColumn>& steps = check.columns[c];
-  out.members("control", problem.controls.variables()[c].control, "component", columnName(problem.controls, column));
+  out.members("control", problem.controls.variables()[c].control, "component", problem.controls.variables()[c].component);
+  out.members("name", problem.controls.describeVariable(column));
   std::optional<std::size_t> best;
   if (check.best_step[c] >= 0) best = static_cast<std::size_t>(check.best_step[c]);
   out.members("best_step", best ? std::optional(check.steps[*best]) : std::nullopt);

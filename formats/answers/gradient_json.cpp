@@ -15,7 +15,9 @@ using Layout = JsonWriter::Layout;
 void writeRows(JsonWriter& out, const ConstraintSet& constraints, const RowValues& rows) {
   Eigen::Index i = 0;
   out.objects("rows", constraints.rows(), Layout::line, [&](const Row& row) {
-    out.members("constraint", row.constraint, "component", row.name, "value", rows.values[i++], "target", row.target);
+    out.members("constraint", row.constraint, "component", row.name);
+    out.members("name", constraints.describeRow(static_cast<int>(i)), "value", rows.values[i], "target", row.target);
+    ++i;
     if (row.isRange()) out.members("min", row.lower, "max", row.upper);
   });
 }
@@ -29,18 +31,13 @@ void writeTimes(JsonWriter& out, const std::vector<ConstrainedTime>& times) {
 void writeColumns(JsonWriter& out, const ControlSet& controls, const Eigen::VectorXd& values) {
   int j = 0;
   out.objects("columns", controls.variables(), Layout::line, [&](const Variable& variable) {
-    out.members("control", variable.control, "component", columnName(controls, j), "value", values[j]);
+    out.members("control", variable.control, "component", variable.component, "name", controls.describeVariable(j));
+    out.members("value", values[j]);
     ++j;
   });
 }
 
 }  // namespace
-
-std::string columnName(const ControlSet& controls, int variable) {
-  const Variable& v = controls.variables()[static_cast<std::size_t>(variable)];
-  const std::string word = controls.controls()[static_cast<std::size_t>(v.control)].kind->word;
-  return v.component == "value" ? word : word + "." + v.component;
-}
 
 std::string gradientJson(const EditProblem& problem, const Eigen::VectorXd& values, const RowsAndJacobian& result,
                          bool reliable, const std::string& message) {

@@ -9,11 +9,8 @@ namespace carom::formats_detail {
 
 using namespace editing_detail;
 
-/// "velocity.x", "size.radius", "elasticity": a control's number in the words of the scene document.
-std::string columnName(const ControlSet& controls, int variable);
-
-/// The answer of `carom gradient --json`: rows {constraint, component, value, target}, times {constraint, from, to,
-/// time}, columns {control, component, value}, jacobian (by rows), signature, reliable, message. A row that is held
+/// The answer of `carom gradient --json`: rows {constraint, component, name, value, target}, times {constraint, from, to,
+/// time}, columns {control, component, name, value}, jacobian (by rows), signature, reliable, message. A row that is held
 /// within a range has the target null, and min and max (null on an open side). Rows of a constraint `between` two times
 /// are read, and derived, at the time that stands in `times`. `constraint` and `control` are indices into the lists of
 /// the scene document. `values` are those of the controls at which `result` was evaluated.

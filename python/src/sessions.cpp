@@ -98,7 +98,7 @@ void bindSessionState(nb::class_<PySession>& session) {
 
 void bindSessionNumbers(nb::module_& module) {
   nb::class_<SessionNumber>(module, "SessionNumber", "A control parameter with its value in the scene.")
-      .def_ro("name", &SessionNumber::name, "\"velocity of 'hat', x\"")
+      .def_ro("name", &SessionNumber::name, "\"velocity.x of 'hat'\"")
       .def_ro("value", &SessionNumber::value, "SI")
       .def_ro("control", &SessionNumber::control, "Index of its Control.")
       .def_ro("component", &SessionNumber::component, "'x', 'radius', 'value'; of an orientation 'w', 'x', 'y' or 'z'.")

@@ -40,7 +40,7 @@ TEST(Replay, SaysWhereItDiffers) {
   EXPECT_EQ(answer["same"], false);
   const CommandRun run = runCommand({"replay", path});
   EXPECT_EQ(run.code, 4);
-  EXPECT_NE(run.err.find("/gestures/1: velocity of 'ball', x: found"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("/gestures/1: velocity.x of 'ball': found"), std::string::npos) << run.err;
 }
 
 TEST(Replay, PlaysWhatAStudioDid) {

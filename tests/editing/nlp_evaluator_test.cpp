@@ -308,7 +308,7 @@ TEST(NlpEvaluator, TellsVariablesAndRows) {
   EXPECT_EQ(rows[0].lower, rows[0].upper);
   EXPECT_EQ(rows[1].lower, 0);
   EXPECT_EQ(rows[1].upper, 1);
-  EXPECT_EQ(rows[2].name, "triangle inequality of inertia of 'box', x");
+  EXPECT_EQ(rows[2].name, "triangle inequality of inertia.x of 'box'");
   EXPECT_EQ(rows[2].control, 1);
   EXPECT_EQ(rows[5].name, "cone of tilt of 'box' at impact 1");
   EXPECT_EQ(rows[5].control, 2);

@@ -95,7 +95,7 @@ TEST(SessionContents, NumbersSayWhatMayBeDoneWithThem) {
   session.setControls({velocity("box").only({"x", "z"}).within(-2, 3).weighted(2), mass("box"), orientation("box")});
   const std::vector<SessionNumber> numbers = session.numbers();
   ASSERT_EQ(numbers.size(), 8u);
-  EXPECT_EQ(numbers[0].name, "velocity of 'box', x");
+  EXPECT_EQ(numbers[0].name, "velocity.x of 'box'");
   EXPECT_EQ(numbers[0].component, "x");
   EXPECT_EQ(numbers[0].value, s.scene.bodies[1].velocity.x());
   EXPECT_TRUE(numbers[0].varies && !numbers[1].varies && numbers[2].varies);

@@ -173,7 +173,7 @@ TEST(SessionReplay, SaysWhatDiffers) {
   EXPECT_TRUE(replay.next().differences.empty());
   const ReplayedGesture gesture = replay.next();
   ASSERT_EQ(gesture.differences.size(), 1u);
-  EXPECT_NE(gesture.differences[0].find("velocity of 'box', x"), std::string::npos) << gesture.differences[0];
+  EXPECT_NE(gesture.differences[0].find("velocity.x of 'box'"), std::string::npos) << gesture.differences[0];
 }
 
 /// Runs a call that must be refused, and expects the session to be as it was.

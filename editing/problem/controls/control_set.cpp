@@ -2,6 +2,7 @@
 #include "editing/problem/controls/control_set.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -47,6 +48,11 @@ std::string describe(const Control& control) {
   return text;
 }
 
+std::string describe(const Control& control, const std::string& component) {
+  std::string text = describe(control);
+  return component == "value" ? text : text.insert(control.vary.size(), "." + component);
+}
+
 ControlSet::ControlSet(const Scene& scene, const std::vector<Control>& controls) : written_(scene) {
   // All controls are bound, and so prepared, before any value is read: one may rewrite what another varies.
   for (std::size_t i = 0; i < controls.size(); ++i) {
@@ -72,8 +78,8 @@ void ControlSet::addVariables(int index) {
     const int slot = varying[k];
     for (const Variable& other : variables_) {
       if (other.slot == slot && sameOwner(controls_[other.control], bound)) {
-        throw InputError(where, names[slot] + " of the " + describe(bound.control) + " varies already in " +
-                                    pointerOf(other.control) + ", expected once");
+        throw InputError(where, describe(bound.control, names[slot]) + " varies already in " + pointerOf(other.control) +
+                                    ", expected once");
       }
     }
     const Interval bounds = boundsOf(bound, k, count, before[slot], where);
@@ -84,7 +90,8 @@ void ControlSet::addVariables(int index) {
     v.lower = bounds.lower, v.upper = bounds.upper;
     v.logarithmic = kind.logarithmic;
     v.scale = scale[slot] / bound.control.weight;
-    const std::string name = "The " + describe(bound.control) + (count > 1 ? ", " + v.component + "," : "");
+    std::string name = describe(bound.control, v.component);
+    name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
     if (v.start != v.before) {
       start_moved_ = true;
       notes_.push_back(name + " was " + number(v.before) + ", outside its bounds, and starts at " + number(v.start) +
@@ -235,10 +242,7 @@ Eigen::VectorXd ControlSet::upperChanges() const {
 
 std::string ControlSet::describeVariable(int variable) const {
   const Variable& v = variables_[checkedIndex("describeVariable", "variable", variable, variables_.size())];
-  const Control& control = controls_[v.control].control;
-  if (v.component == "value") return describe(control);
-  std::string text = describe(control);
-  return text.insert(control.vary.size(), "." + v.component);
+  return describe(controls_[v.control].control, v.component);
 }
 
 }  // namespace carom::editing_detail

@@ -103,5 +103,7 @@ class ControlSet {
 
 /// "velocity of 'hat'", "tilt of 'hat' at impact 1", "gravity".
 std::string describe(const Control& control);
+/// "velocity.x of 'hat'", "size.radius of 'hat'", "elasticity of 'felt'": a scene parameter, as every answer names it.
+std::string describe(const Control& control, const std::string& component);
 
 }  // namespace carom::editing_detail

@@ -21,8 +21,9 @@ ValidityRows::ValidityRows(const ControlSet& controls) {
 
 std::string ValidityRows::describe(const ControlSet& controls, int index) const {
   const Row& row = rows_[static_cast<std::size_t>(index)];
-  const std::string of = " of " + editing_detail::describe(controls.controls()[static_cast<std::size_t>(row.control)].control);
-  return row.moment < 0 ? "cone" + of : "triangle inequality" + of + ", " + "xyz"[row.moment];
+  const Control& control = controls.controls()[static_cast<std::size_t>(row.control)].control;
+  if (row.moment < 0) return "cone of " + editing_detail::describe(control);
+  return "triangle inequality of " + editing_detail::describe(control, std::string(1, "xyz"[row.moment]));
 }
 
 double ValidityRows::value(const Row& row, const Eigen::VectorXd& slots) {
