@@ -10,6 +10,7 @@
 
 #include "formats/json/json_place.hpp"
 #include "formats/json/json_writer.hpp"
+#include "formats/mesh/draco_mesh.hpp"
 #include "formats/mesh/triangle_soup.h"
 
 namespace carom::formats_detail {
@@ -181,13 +182,23 @@ class GltfCheck {
       indexAt({attribute.value(), pointerTo(attributes.pointer, attribute.key())}, "accessors");
   }
 
+  void checkDraco(const Place& draco) const {
+    indexAt(draco.require("bufferView"), "bufferViews");
+    const Place attributes = draco.require("attributes");
+    attributes.requireObject();
+    wholeAt(attributes.require("POSITION"), 0, 0x7fffffff);
+    if (draco.find("indices")) fail(draco.pointer + "/indices", "a member that the extension does not have", "none");
+  }
+
   void checkMesh(const Place& mesh) const {
     const Place primitives = mesh.require("primitives");
     for (std::size_t i = 0; i < primitives.size(); ++i) {
       const Place primitive = primitives.at(i);
       checkAttributes(primitive.require("attributes"));
+      const auto draco = extensionOf(primitive, kDracoCompression);
+      if (draco) checkDraco(*draco);
       if (const auto indices = checkIndex(primitive, "indices", "accessors"))
-        if (!item("accessors", *indices).contains("bufferView"))
+        if (!draco && !item("accessors", *indices).contains("bufferView"))
           fail(primitive.pointer + "/indices", "an accessor without a view", "one with a view");
       wholeOr(primitive, "mode", TINYGLTF_MODE_TRIANGLES, TINYGLTF_MODE_POINTS, TINYGLTF_MODE_TRIANGLE_FAN);
       const auto targets = primitive.find("targets");

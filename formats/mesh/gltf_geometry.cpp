@@ -8,12 +8,16 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <memory>
+#include <span>
 #include <type_traits>
 
 #include "adjoint/base/errors.h"
 #include "formats/json/json.hpp"
-#include "formats/mesh/gltf_reader.hpp"
+#include "formats/mesh/draco_mesh.hpp"
+#include "formats/mesh/triangle_soup.h"
 
 namespace carom::formats_detail {
 namespace {
@@ -124,7 +128,8 @@ auto within(const std::string& where, Function function) {
   }
 }
 
-Elements positionsOf(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
+/// The accessor of the vertices, which has numbers that are read.
+int positionAccessor(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
   const auto attribute = primitive.attributes.find("POSITION");
   if (attribute == primitive.attributes.end()) fail("/attributes", "no \"POSITION\"", "one");
   const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(attribute->second)];
@@ -135,7 +140,20 @@ Elements positionsOf(const tinygltf::Model& model, const tinygltf::Primitive& pr
   if (accessor.type != TINYGLTF_TYPE_VEC3 || !(integers || accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT))
     fail("/attributes/POSITION", "component type " + std::to_string(accessor.componentType),
          "vectors of 3 floats (VEC3 of 5126), or of integers with the extension KHR_mesh_quantization");
-  return within("/attributes/POSITION", [&] { return Elements(model, attribute->second); });
+  return attribute->second;
+}
+
+Elements positionsOf(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
+  const int accessor = positionAccessor(model, primitive);
+  return within("/attributes/POSITION", [&] { return Elements(model, accessor); });
+}
+
+/// What normalised integers are divided by; 1 for other numbers.
+double normalisedBy(const tinygltf::Accessor& accessor) {
+  if (!accessor.normalized || accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) return 1;
+  const int bits = 8 * tinygltf::GetComponentSizeInBytes(static_cast<unsigned>(accessor.componentType));
+  const bool is_signed = accessor.componentType == TINYGLTF_COMPONENT_TYPE_BYTE || accessor.componentType == TINYGLTF_COMPONENT_TYPE_SHORT;
+  return static_cast<double>((std::uint64_t{1} << (is_signed ? bits - 1 : bits)) - 1);
 }
 
 /// The vertices along the primitive, one after another, by the numbers that POSITION has them under.
@@ -200,19 +218,54 @@ void requireRigid(const std::vector<double>& weights) {
     fail("/weights", "a morphed mesh", "weights of 0 or none");
 }
 
-void requireUncompressed(const tinygltf::Primitive& primitive) {
-  const char* draco = "KHR_draco_mesh_compression";
-  if (primitive.extensions.count(draco) > 0)
-    fail(std::string("/extensions/") + draco, "a compressed mesh", "one without compression");
+/// Which vertices the corners of a primitive are, and where these are.
+struct Geometry {
+  std::vector<Corners> corners;
+  std::function<Vec3(std::uint32_t)> position;
+};
+
+Geometry plainGeometry(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
+  const auto positions = std::make_shared<const Elements>(positionsOf(model, primitive));
+  return {cornersOf(primitive.mode, orderOf(model, primitive, positions->count())),
+          [positions](std::uint32_t i) { return positions->position(i); }};
+}
+
+/// Of a primitive compressed by Draco: its accessors say how much there is, and of what kind it was.
+Geometry dracoGeometry(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const tinygltf::Value& extension) {
+  if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != TINYGLTF_MODE_TRIANGLE_STRIP)
+    fail("/mode", std::to_string(primitive.mode), "triangles (4) or a triangle strip (5), which Draco compresses");
+  const tinygltf::Accessor& positions = model.accessors[static_cast<std::size_t>(positionAccessor(model, primitive))];
+  const int kept = extension.Has("indices") ? extension.Get("indices").GetNumberAsInt() : primitive.indices;  // see gltf_load.cpp
+  if (kept < 0) fail("", "a compressed mesh without \"indices\"", "an accessor that says how many there are");
+  const tinygltf::Accessor& indices = model.accessors[static_cast<std::size_t>(kept)];
+  const auto view = static_cast<std::size_t>(extension.Get("bufferView").GetNumberAsInt());
+  const auto id = static_cast<std::uint32_t>(extension.Get("attributes").Get("POSITION").GetNumberAsInt());
+  const tinygltf::BufferView& v = model.bufferViews[view];
+  const std::span<const unsigned char> bytes(model.buffers[static_cast<std::size_t>(v.buffer)].data.data() + v.byteOffset, v.byteLength);
+  return within(std::string("/extensions/") + kDracoCompression, [&] {
+    const auto mesh = std::make_shared<const DracoMesh>(decodeDraco(bytes, id, positions.count, indices.count, normalisedBy(positions)));
+    Geometry geometry{{}, [mesh](std::uint32_t i) { return mesh->positions[i]; }};
+    for (std::size_t t = 0; t + 2 < mesh->triangles.size(); t += 3)
+      geometry.corners.push_back({mesh->triangles[t], mesh->triangles[t + 1], mesh->triangles[t + 2]});
+    return geometry;
+  });
+}
+
+/// As it is compressed, or as it is given beside that for those who do not read it.
+Geometry geometryOf(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
+  const auto draco = primitive.extensions.find(kDracoCompression);
+  if (draco == primitive.extensions.end()) return plainGeometry(model, primitive);
+  if (readsDraco()) return dracoGeometry(model, primitive, draco->second);
+  const bool beside = model.accessors[static_cast<std::size_t>(positionAccessor(model, primitive))].bufferView >= 0;
+  if (beside && !draco->second.Has("indices")) return plainGeometry(model, primitive);
+  fail(std::string("/extensions/") + kDracoCompression, "a compressed mesh", "one without compression: this carom was built without Draco");
 }
 
 void appendPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                      const Eigen::Affine3d& transform, std::vector<Vec3>& vertices,
                      std::vector<std::array<int, 3>>& triangles) {
-  requireUncompressed(primitive);
-  const Elements positions = positionsOf(model, primitive);
-  const std::vector<std::uint32_t> order = orderOf(model, primitive, positions.count());
-  const std::vector<Corners> corners = cornersOf(primitive.mode, order);
+  const Geometry geometry = geometryOf(model, primitive);
+  const std::vector<Corners>& corners = geometry.corners;
   std::vector<std::uint32_t> used;
   for (const Corners& c : corners) used.insert(used.end(), c.begin(), c.end());
   std::sort(used.begin(), used.end());
@@ -223,7 +276,7 @@ void appendPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& pr
 
   const std::size_t first = vertices.size();
   for (const std::uint32_t vertex : used) {
-    const Vec3 p = positions.position(vertex);
+    const Vec3 p = geometry.position(vertex);
     if (!p.allFinite())
       fail("/attributes/POSITION", "numbers that are not finite in element " + std::to_string(vertex), "finite ones");
     vertices.push_back(transform * p);
@@ -282,38 +335,6 @@ void appendMeshTriangles(const tinygltf::Model& model, int mesh, const Eigen::Af
   for (std::size_t i = 0; i < m.primitives.size(); ++i)
     within(pointerTo(place + "/primitives", i),
            [&] { appendPrimitive(model, m.primitives[i], transform, vertices, triangles); });
-}
-
-TriangleSoup parseGltfMesh(std::string_view bytes, const std::string& folder) {
-  const tinygltf::Model model = parseGltf(bytes, folder);
-  TriangleSoup soup;
-  if (model.scenes.empty()) fail("/scenes", "none", "a scene with meshes");
-  struct Visit {
-    int node;
-    Eigen::Affine3d parent;
-  };
-  std::vector<Visit> visits;
-  const auto push = [&](const std::vector<int>& nodes, const Eigen::Affine3d& parent) {
-    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) visits.push_back({*node, parent});
-  };
-  Eigen::Affine3d root = Eigen::Affine3d::Identity();
-  root.linear() = zUpFromYUp();
-  push(model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes, root);
-  while (!visits.empty()) {
-    const Visit visit = visits.back();
-    visits.pop_back();
-    const auto index = static_cast<std::size_t>(visit.node);
-    const tinygltf::Node& node = model.nodes[index];
-    const std::string where = pointerTo("/nodes", index);
-    const Eigen::Affine3d transform = visit.parent * nodeTransform(node, where);
-    if (node.mesh >= 0) {
-      if (node.skin >= 0) fail(where + "/skin", "a skin, which bends the mesh", "a rigid mesh");
-      within(where, [&] { requireRigid(node.weights); });
-      appendMeshTriangles(model, node.mesh, transform, soup.vertices, soup.triangles, "");
-    }
-    push(node.children, transform);
-  }
-  return soup;
 }
 
 }  // namespace carom::formats_detail

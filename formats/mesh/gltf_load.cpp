@@ -14,8 +14,10 @@
 #include "formats/base/format_error.h"
 #include "formats/base/read_file.hpp"
 #include "formats/json/json_writer.hpp"
+#include "formats/mesh/draco_mesh.hpp"
 #include "formats/mesh/gltf_check.hpp"
 #include "formats/mesh/gltf_geometry.hpp"
+#include "formats/mesh/meshopt_views.hpp"
 #include "formats/mesh/triangle_soup.h"
 
 namespace carom::formats_detail {
@@ -136,9 +138,6 @@ std::string bufferBytes(const Json& buffer, const Container& container, bool fir
                         const std::string& where) {
   const auto found = buffer.find("uri");
   if (found == buffer.end()) {
-    const auto extensions = buffer.find("extensions");
-    if (extensions != buffer.end() && extensions->is_object() && extensions->contains("EXT_meshopt_compression"))
-      fail(where, "a buffer compressed by EXT_meshopt_compression", "one without compression");
     if (!container.has_binary || !first)
       fail(where, "a buffer without \"uri\"", container.has_binary ? "one, but for the first buffer" : "one");
     return std::string(container.binary);
@@ -159,6 +158,10 @@ std::vector<tinygltf::Buffer> readBuffers(const Json& document, const Container&
   for (std::size_t i = 0; list != document.end() && i < list->size(); ++i) {
     const std::string where = pointerTo("/buffers", i);
     const Json& buffer = (*list)[i];
+    if (isMeshoptFallback(buffer)) {
+      buffers.emplace_back();  // without data: decompressMeshopt gives each view a buffer of its own
+      continue;
+    }
     const auto length = buffer["byteLength"].get<std::size_t>();
     const std::string bytes = bufferBytes(buffer, container, i == 0, folder, where);
     if (bytes.size() < length)
@@ -169,6 +172,18 @@ std::vector<tinygltf::Buffer> readBuffers(const Json& document, const Container&
     out.data.assign(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length));
   }
   return buffers;
+}
+
+/// Views of a buffer without data are compressed, all of them.
+void requireData(const Json& document, const std::vector<tinygltf::Buffer>& buffers) {
+  const auto views = document.find("bufferViews");
+  for (std::size_t i = 0; views != document.end() && i < views->size(); ++i) {
+    const auto buffer = (*views)[i]["buffer"].get<std::size_t>();
+    if (buffers[buffer].data.empty())
+      fail(pointerTo("/bufferViews", i) + "/buffer",
+           "buffer " + std::to_string(buffer) + ", a fallback of EXT_meshopt_compression without data",
+           "a compressed view, or a buffer with data");
+  }
 }
 
 // ---- text ----
@@ -182,6 +197,19 @@ void widenIntegers(Json& value) {
   }
 }
 
+// tinygltf refuses indices without a view, as those of a compressed primitive are: the extension keeps their accessor.
+void keepCompressedIndices(Json& document) {
+  const auto meshes = document.find("meshes");
+  for (std::size_t m = 0; meshes != document.end() && m < meshes->size(); ++m)
+    for (Json& primitive : (*meshes)[m]["primitives"]) {
+      const auto indices = primitive.find("indices");
+      const bool compressed = primitive.contains("extensions") && primitive["extensions"].contains(kDracoCompression);
+      if (!compressed || indices == primitive.end() || document["accessors"][indices->get<std::size_t>()].contains("bufferView")) continue;
+      primitive["extensions"][kDracoCompression]["indices"] = *indices;
+      primitive.erase("indices");
+    }
+}
+
 // What geometry does not need, and what tinygltf would refuse or decode in it.
 void strip(Json& document) {
   for (const char* member :
@@ -189,6 +217,7 @@ void strip(Json& document) {
     document.erase(member);
   if (const auto extensions = document.find("extensions"); extensions != document.end() && extensions->is_object())
     extensions->erase("KHR_lights_punctual");
+  keepCompressedIndices(document);
   widenIntegers(document);
 }
 
@@ -208,6 +237,8 @@ tinygltf::Model parseGltf(std::string_view bytes, const std::string& folder) {
   Json document = parseJson(container.json, kMaxValues);
   checkGltf(document);
   std::vector<tinygltf::Buffer> buffers = readBuffers(document, container, folder);
+  decompressMeshopt(document, buffers);
+  requireData(document, buffers);
   const std::size_t meshes = document.contains("meshes") ? document["meshes"].size() : 0;
   strip(document);
   const std::string text = compactText(document);

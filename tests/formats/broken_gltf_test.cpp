@@ -213,12 +213,6 @@ TEST(BrokenGltf, brokenDocuments) {
        [](Json& j) { setBuffer(j, std::string("\xff\xff\xff\x7f", 4) + formats_test::tetrahedronBytes().substr(4)); },
        "/meshes/0/primitives/0/attributes/POSITION",
        {"not finite in element 0"}},
-      {"draco",
-       [](Json& j) {
-         primitive(j)["extensions"] = {{"KHR_draco_mesh_compression", {{"bufferView", 0}}}};
-       },
-       "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression",
-       {"a compressed mesh"}},
       {"morphed",
        [](Json& j) {
          j["meshes"][0]["weights"] = {0, 0.5};

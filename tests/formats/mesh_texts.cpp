@@ -40,6 +40,21 @@ std::string base64(const std::string& bytes) {
   return out;
 }
 
+std::string fromBase64(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = (bits << 6) | static_cast<unsigned>(digits.find(c));
+    if ((count += 6) < 8) continue;
+    count -= 8;
+    bytes += static_cast<char>((bits >> count) & 0xffu);
+  }
+  return bytes;
+}
+
 std::string glb(std::string json, std::string binary) {
   while (json.size() % 4 != 0) json += ' ';
   while (binary.size() % 4 != 0) binary += '\0';

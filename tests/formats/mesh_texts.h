@@ -18,6 +18,7 @@ std::string bytesOf(const std::vector<std::uint8_t>& numbers);
 std::string bytesOf(const std::vector<std::uint16_t>& numbers);
 std::string bytesOf(const std::vector<std::uint32_t>& numbers);
 std::string base64(const std::string& bytes);
+std::string fromBase64(const std::string& text);
 
 /// A .glb of a JSON text and binary data.
 std::string glb(std::string json, std::string binary);

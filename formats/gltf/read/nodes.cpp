@@ -8,6 +8,8 @@
 #include "formats/gltf/axes.hpp"
 #include "formats/gltf/read/parts.hpp"
 #include "formats/json/json_writer.hpp"
+#include "formats/mesh/draco_mesh.hpp"
+#include "formats/mesh/meshopt_views.hpp"
 
 namespace carom::gltf {
 
@@ -200,7 +202,7 @@ void reportRequired(const JsonPlace& document, ImportReport& report) {
   const auto required = document.find("extensionsRequired");
   for (std::size_t i = 0; required && i < required->size(); ++i) {
     const std::string& name = required->at(i).text();
-    bool known = false;
+    bool known = (readsDraco() && name == "KHR_draco_mesh_compression") || (readsMeshopt() && name == "EXT_meshopt_compression");
     for (const char* prefix : {"KHR_physics_rigid_bodies", "KHR_implicit_shapes", "KHR_collision_shapes",
                                "OMI_physics_gravity", "OMI_physics_body", "OMI_physics_shape", "KHR_mesh_quantization", "KHR_lights_", "KHR_materials_", "KHR_texture_", "EXT_texture_"})
       known = known || name.rfind(prefix, 0) == 0;
