@@ -140,10 +140,11 @@ void compare(const Sequence& before, int e, const Sequence& after, int f, const 
   if (!sameFeatures(a, b)) {
     changes.push_back(
         {Kind::moved, e, f, matters,
-         "The " + impact + " moved from " + featuresOf(before.motion, e) + " to " + featuresOf(after.motion, f) + "."});
+         "The " + impact + ", at " + brief(b.time) + " s, moved from " + featuresOf(before.motion, e) + " to " +
+             featuresOf(after.motion, f) + "."});
   } else if (branchOf(a.mode) != branchOf(b.mode)) {
     changes.push_back({Kind::mode, e, f, matters,
-                       "The " + impact + " changed from " + nameOf(a.mode) + " to " + nameOf(b.mode) + "."});
+                       "The " + impact + ", at " + brief(b.time) + " s, changed from " + nameOf(a.mode) + " to " + nameOf(b.mode) + "."});
   }
 }
 

@@ -11,7 +11,7 @@
 #include "editing/detail/messages.hpp"
 #include "editing/report/extended_controls.hpp"
 #include "editing/report/linear_model.hpp"
-#include "editing/report/nail_in_solid.hpp"
+#include "editing/strategy/nail_in_solid.hpp"
 #include "editing/solve/dependence.hpp"
 
 namespace carom::editing_detail {
@@ -196,8 +196,7 @@ std::string percent(double share) { return number(std::round(100 * share)) + " %
 void tell(WhyNot& why, bool out_of_reach, const std::string& refusal) {
   std::vector<std::string>& say = why.sentences;
   for (const WhyNot::Inside& inside : why.inside)
-    say.push_back("The nail of " + inside.name + " lies inside '" + inside.solid +
-                  "', which no motion can reach.");
+    say.push_back(sentence(describeInside(inside)));
   for (const WhyNot::Conflict& conflict : why.conflicts) {
     if (conflict.names.size() == 1) {
       say.push_back("To first order no change of the controls meets " + conflict.names[0] + " from the nearest point.");
@@ -236,6 +235,21 @@ void tell(WhyNot& why, bool out_of_reach, const std::string& refusal) {
     sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
 }
 
+/// Beside a proof that names what would have to be otherwise: bounds and parameters that would help, none of which is tried.
+WhyNot besideProof(EditEvaluator& evaluator, const EditSolution& solution) {
+  WhyNot why;
+  if (solution.inside.empty() && solution.point->rows.available && evaluator.differentiate(*solution.point)) {
+    Explanation explanation(evaluator, *solution.point);
+    explanation.findConflicts();
+    explanation.findBounds();
+    if (explanation.outOfReach()) explanation.findHelp();
+    why = std::move(explanation.why);
+  }
+  why.inside = solution.inside;
+  why.sentences = {solution.message};
+  return why;
+}
+
 }  // namespace
 
 WhyNot explain(const Scene& written, EditEvaluator& evaluator, const EditSolution& solution) {
@@ -255,7 +269,11 @@ WhyNot explain(const Scene& written, EditEvaluator& evaluator, const EditSolutio
 
 void explainInto(EditResult& result, const Scene& written, EditEvaluator& evaluator, const EditSolution& solution) {
   if (result.status != EditStatus::infeasible && result.status != EditStatus::not_converged) return;
-  if (solution.tells_all || !solution.point->rows.available || !evaluator.differentiate(*solution.point)) return;
+  if (solution.tells_all) {
+    result.why_not = besideProof(evaluator, solution);
+    return;
+  }
+  if (!solution.point->rows.available || !evaluator.differentiate(*solution.point)) return;
   result.why_not = explain(written, evaluator, solution);
   if (!result.why_not.inside.empty()) result.status = EditStatus::infeasible;
   const WhyNot& why = result.why_not;

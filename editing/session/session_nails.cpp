@@ -24,21 +24,12 @@ std::string whyMissing(const Constraint& nail, const Motion& motion) {
   return "The motion ends at " + brief(motion.end) + " s, before it.";
 }
 
-std::string unitOfRow(const Row& row) {
-  if (!row.kind) return " m";
-  const std::string word = row.kind->word;
-  if (word == "position" || word == "point") return " m";
-  if (word == "orientation") return " rad";
-  if (word == "velocity") return " m/s";
-  return word == "time" ? " s" : " rad/s";
-}
-
 /// "position.x is off by 0.012 m."
 std::string worstOf(const ConstraintSet& set, const RowValues& rows) {
   Eigen::Index worst = 0;
   rows.scaled.cwiseAbs().maxCoeff(&worst);
   const Row& row = set.rows()[static_cast<std::size_t>(worst)];
-  return row.name + " is off by " + brief(std::abs(rows.residuals[worst])) + unitOfRow(row) + ".";
+  return row.name + " is off by " + brief(std::abs(rows.residuals[worst])) + unitOf(row) + ".";
 }
 
 double timeOf(const ConstraintSet& set, const RowValues& rows, const Motion& motion) {

@@ -83,7 +83,7 @@ EditPointPtr smallestConfirmed(EditEvaluator& evaluator, SequenceSearch& across)
   return nullptr;
 }
 
-/// "position.x of 'hat' at 1.4 s by 0.02, and 2 others": the worst, as all are in EditResult::residuals.
+/// "position.x of 'hat' at 1.4 s by 0.02 m (it is 1.38 m), and 2 others": the worst, as all are in EditResult::residuals.
 std::string unmetRows(const EditEvaluator& evaluator, const EditPoint& point) {
   const auto size = [&](int i) { return std::abs(point.rows.scaled[i]); };
   int worst = -1, others = -1;
@@ -93,8 +93,10 @@ std::string unmetRows(const EditEvaluator& evaluator, const EditPoint& point) {
     if (worst < 0 || size(i) > size(worst)) worst = i;
   }
   if (worst < 0) return "";
-  const std::string text =
-      evaluator.problem().constraints.describeRow(worst) + " by " + brief(point.rows.residuals[worst]);
+  const ConstraintSet& set = evaluator.problem().constraints;
+  const Row& row = set.rows()[static_cast<std::size_t>(worst)];
+  std::string text = set.describeRow(worst) + " by " + brief(std::abs(point.rows.residuals[worst])) + unitOf(row);
+  if (row.kind && !row.kind->from_target) text += " (it is " + brief(point.rows.values[worst]) + unitOf(row) + ")";
   return others > 0 ? text + ", and " + std::to_string(others) + (others > 1 ? " others" : " other") : text;
 }
 
@@ -233,6 +235,7 @@ EditSolution impossible(EditSolution solution, const Impossible& proof) {
   solution.status = EditStatus::infeasible;
   solution.message = proof.why;
   solution.tells_all = proof.tells_all;
+  solution.inside = proof.inside;
   return solution;
 }
 

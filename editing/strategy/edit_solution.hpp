@@ -17,7 +17,8 @@ struct EditSolution {
   double growth = 0;                 ///< of the start's motion, see growthOf; 0: not measured
   EditStatus status = EditStatus::not_converged;
   std::string message;  ///< why, when it is not solved; else what is to be said of a boundary that is near
-  bool tells_all = false;  ///< the message is a proof that names what would have to be otherwise, see Impossible
+  bool tells_all = false;  ///< the message is a proof that names what would have to be otherwise, see Impossible: nothing is tried
+  std::vector<WhyNot::Inside> inside = {};  ///< as there
   std::string contradiction;  ///< which constraints are in conflict in the start's impacts; may be empty
 };
 

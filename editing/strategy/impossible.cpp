@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "editing/detail/messages.hpp"
+#include "editing/strategy/energy_bounds.hpp"
 #include "editing/strategy/kept_coordinates.hpp"
+#include "editing/strategy/nail_in_solid.hpp"
 #include "editing/strategy/proven_bounds.hpp"
 
 namespace carom::editing_detail {
@@ -36,8 +38,8 @@ bool readTheSame(const ConstraintSet& set, const Row& a, const Row& b) {
 std::string withWanted(const ConstraintSet& set, int row) {
   const Row& r = set.rows()[static_cast<std::size_t>(row)];
   const std::string name = set.describeRow(row);
-  if (!r.isRange()) return name + " = " + number(r.target);
-  return name + " in [" + number(r.lower) + ", " + number(r.upper) + "]";
+  if (!r.isRange()) return name + " = " + number(r.target) + unitOf(r);
+  return name + " in [" + number(r.lower) + ", " + number(r.upper) + "]" + unitOf(r);
 }
 
 std::string twoValues(const EditEvaluator& evaluator) {
@@ -84,7 +86,7 @@ std::string readTooEarly(const EditEvaluator& evaluator, const EditPoint& start)
     const When& at = problem.constraints.constraints()[static_cast<std::size_t>(row.constraint)].at;
     if (!at.isTime() || !(at.time <= *first)) continue;
     return "In this impact sequence no control can influence " + problem.constraints.describeRow(i) + " (off by " +
-           brief(start.rows.residuals[i]) +
+           brief(start.rows.residuals[i]) + unitOf(row) +
            "), nor in any other: the controls act in impacts only, and none happens before.";
   }
   return "";
@@ -97,9 +99,16 @@ Impossible whyImpossible(const EditEvaluator& evaluator, const EditPoint& start)
   const EditProblem& problem = evaluator.problem();
   const double tolerance = evaluator.options().tolerance;
   if (const std::string why = twoValues(evaluator); !why.empty()) return {why};
-  for (const std::string& why : {whyTheyNeverMeet(problem), whyItCannotRest(problem, tolerance), whyItIsTooHigh(problem, tolerance),
-                                 whyItStaysAway(problem, tolerance)})
+  for (const std::string& why : {whyTheyNeverMeet(problem), whyItCannotRest(problem, tolerance), whyItStaysAway(problem, tolerance)})
     if (!why.empty()) return {why, true};
+  if (start.motion.overlaps.empty())  // bodies that overlap at the start may fall through what would hold them
+    for (const std::string& why :
+         {whyItIsTooHigh(problem, tolerance), whyItIsTooFast(problem, tolerance), whyItIsTooFar(problem, tolerance)})
+      if (!why.empty()) return {why, true};
+  if (start.motion.overlaps.empty()) {
+    const std::vector<WhyNot::Inside> inside = nailsInSolids(problem, problem.controls.startScene());
+    if (!inside.empty()) return {sentence(describeInside(inside[0])), true, inside};
+  }
   return {readTooEarly(evaluator, start)};
 }
 

@@ -11,6 +11,7 @@
 #include "adjoint/motion/plan.h"
 #include "adjoint/scene/body_model.h"
 #include "editing/detail/messages.hpp"
+#include "editing/strategy/free_flight.hpp"
 
 // Along an axis perpendicular to gravity the centre of mass of such a body is at x(t) = x_0 + v t with x_0 and v within the bounds of what varies:
 // an interval whose ends are linear in t, so that what holds at two times holds between them.
@@ -109,39 +110,65 @@ struct Proof {
 
   const Body& named(const std::string& name) const { return scene.bodies[static_cast<std::size_t>(bodyIndex(scene, name))]; }
 
-  std::string why(const Body& body, Eigen::Index axis, const KeptCoordinate& kept) const {
-    const std::string speed = std::string("velocity.") + "xyz"[axis] + " of '" + body.name + "'";
-    return speed + (kept.locked ? " is locked at " + brief(kept.speed.lower) + " m/s"
-                                : " lies between " + brief(kept.speed.lower) + " and " + brief(kept.speed.upper) + " m/s") +
-           ", and nothing that it meets " + (kept.locked && kept.speed.lower == 0 ? "turns it aside" : "changes it");
+  /// "velocity.x of 'ball' lies between 0 and 2 m/s".
+  std::string speedOf(const Body& body, Eigen::Index axis, const Interval& speed) const {
+    const std::string name = std::string("velocity.") + "xyz"[axis] + " of '" + body.name + "'";
+    if (speed.lower == speed.upper) return name + " is locked at " + brief(speed.lower) + " m/s";
+    return name + " lies between " + brief(speed.lower) + " and " + brief(speed.upper) + " m/s";
   }
 
-  /// Of a row of a position: why it is out of reach.
+  std::string why(const Body& body, Eigen::Index axis, const KeptCoordinate& kept) const {
+    return speedOf(body, axis, kept.speed) + ", and nothing that it meets " +
+           (kept.locked && kept.speed.lower == 0 ? "turns it aside" : "changes it");
+  }
+
+  /// What a number can come to, and why.
+  struct Reach {
+    Interval values;
+    std::string why;
+  };
+
+  /// Of a component of a position, or of a velocity; nothing where no bounds are proven.
+  std::optional<Reach> reachOf(const Body& body, Eigen::Index axis, bool of_velocity, const When& at) const {
+    if (const auto kept = keptCoordinate(body, axis, nullptr)) {
+      double from = 0, to = problem.duration;
+      if (at.isTime()) from = to = at.time;
+      if (at.span) from = at.span->first, to = at.span->second;
+      const Interval a = kept->at(from), b = kept->at(to);
+      const Interval place{std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
+      return Reach{of_velocity ? kept->speed : place, why(body, axis, *kept)};
+    }
+    if (!at.isTime()) return std::nullopt;
+    const auto flight = freeFlightUntil(problem, bodyIndex(scene, body.name), at.time);
+    if (!flight) return std::nullopt;
+    const Interval speed = rangeOf(body, "velocity", std::string(1, "xyz"[axis]), body.velocity[axis]);
+    const Interval values = of_velocity ? Interval{flight->slowest[axis], flight->fastest[axis]}
+                                        : Interval{flight->lowest[axis], flight->highest[axis]};
+    return Reach{values, speedOf(body, axis, speed) + ", and it meets nothing before"};
+  }
+
+  /// Of a row of a position or a velocity: why it is out of reach.
   std::string outOfReach(int index, double tolerance) const {
     const ConstraintSet& set = problem.constraints;
     const Row& row = set.rows()[static_cast<std::size_t>(index)];
-    if (row.constraint < 0 || row.region >= 0 || !row.kind || std::string(row.kind->word) != "position") return "";
+    if (row.constraint < 0 || row.region >= 0 || !row.kind) return "";
+    const std::string word = row.kind->word;
     const Constraint& constraint = set.constraints()[static_cast<std::size_t>(row.constraint)];
-    if (!constraint.relative_to.empty()) return "";
-    const Body& body = named(constraint.body);
-    const auto kept = keptCoordinate(body, row.component, nullptr);
-    if (!kept) return "";
-    const When& at = constraint.at;
-    double from = 0, to = problem.duration;
-    if (at.isTime()) from = to = at.time;
-    if (at.span) from = at.span->first, to = at.span->second;
-    const Interval a = kept->at(from), b = kept->at(to);
+    if ((word != "position" && word != "velocity") || !constraint.relative_to.empty()) return "";
+    const auto reach = reachOf(named(constraint.body), row.component, word == "velocity", constraint.at);
+    if (!reach) return "";
     const double lower = row.isRange() ? row.lower : row.target, upper = row.isRange() ? row.upper : row.target;
     const auto beyond = [&](double wanted, double most) {
       return wanted - most > tolerance * row.scale + kAxisRounding * (1 + std::abs(wanted) + std::abs(most));
     };
-    const double most = std::max(a.upper, b.upper), least = std::min(a.lower, b.lower);
-    const bool above = beyond(lower, most), below = beyond(-upper, -least);
+    const bool above = beyond(lower, reach->values.upper), below = beyond(-upper, -reach->values.lower);
     if (!above && !below) return "";
     std::string row_name = set.describeRow(index);
     row_name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(row_name[0])));
-    return row_name + " comes to " + brief(above ? most : least) + " m at " + (above ? "most" : "least") + "; " +
-           brief(above ? lower : upper) + " m is asked: " + why(body, row.component, *kept) + ".";
+    const char* unit = word == "velocity" ? " m/s" : " m";
+    const double most = above ? reach->values.upper : reach->values.lower, asked = above ? lower : upper;
+    return row_name + " comes to " + briefBeside(most, asked) + unit + " at " + (above ? "most" : "least") + "; " +
+           briefBeside(asked, most) + unit + " is asked: " + reach->why + ".";
   }
 
   /// Why two bodies never meet.
@@ -162,8 +189,8 @@ struct Proof {
       if (!(least > both + kAxisRounding * (1 + std::abs(least)))) continue;
       std::string reasons = why(a, axis, *of_a);
       if (!b.fixed) reasons += "; " + why(b, axis, *of_b);
-      return "'" + a.name + "' and '" + b.name + "' never meet: their places stay " + brief(least) + " m apart along " + "xyz"[axis] +
-             ", where they extend by " + brief(both) + " m together. " + sentence(reasons);
+      return "'" + a.name + "' and '" + b.name + "' never meet: along " + "xyz"[axis] + " they stay " + briefBeside(least, both) +
+             " m apart, and would have to come within " + briefBeside(both, least) + " m. " + sentence(reasons);
     }
     return "";
   }

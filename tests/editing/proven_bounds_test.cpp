@@ -7,6 +7,7 @@
 #include "adjoint/simulate/simulate.h"
 #include "editing/edit.h"
 #include "editing/problem/jacobian.hpp"
+#include "editing/strategy/energy_bounds.hpp"
 #include "editing/strategy/proven_bounds.hpp"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/scenes.h"
@@ -79,8 +80,8 @@ TEST(ProvenBounds, NothingBearsARestInTheAir) {
   When rest(0.0);
   rest.rest = true;
   EXPECT_EQ(proofOf(scene, {velocity("die"), angularVelocity("die")}, heightOf("die", rest, 0.3)),
-            "'die' cannot rest where it is to: it extends no further than 0.026 m from its origin, and the nearest that can "
-            "bear it, 'floor', is 0.3 m away.");
+            "'die' cannot rest there: it reaches 0.026 m from its origin at most, and the nearest that can "
+            "carry it, 'floor', is 0.3 m away.");
   EXPECT_EQ(proofOf(scene, {velocity("die")}, heightOf("die", rest, 0.015)), "");
   // A shelf that varies may come to it, and so may a body that moves.
   Body shelf = solidBody("shelf", Box{{0.2, 0.2, 0.02}}, {3, 0, 0.1}, Vec3::Zero());
@@ -93,7 +94,7 @@ TEST(ProvenBounds, EnergyLiftsABallSoHigh) {
   const Scene scene = ballAndOther();  // 1 m, and (4 + 0.81)/2g = 0.2452 m more; the other one lies on the floor
   const std::vector<Control> controls{elasticity("m"), friction("m")};
   expectProven(solved(scene, controls, heightOf("ball", 1.3, 1.35)),
-               "All the energy that there is lifts 'ball' to 1.3 m at most; position.z of 'ball' at 1.3 s is to be 1.35 m.");
+               "'ball' has energy for a height of 1.3 m at most; 1.35 m is asked (position.z of 'ball' at 1.3 s).");
   EXPECT_EQ(proofOf(scene, controls, heightOf("ball", 1.3, 1.29)), "");
   EXPECT_EQ(proofOf(scene, {velocity("ball")}, heightOf("ball", 1.3, 1.35)), "") << "a throw has no bound";
   EXPECT_EQ(proofOf(scene, {velocity("ball").within(-3, 3)}, heightOf("ball", 1.3, 1.35)), "");

@@ -210,6 +210,11 @@ std::string ConstraintSet::describeConstraint(int index) const {
   return text + " at " + (at.impact == 0 ? number(at.time) + " s" : describeImpact(at, "its impact"));
 }
 
+std::string unitOf(const Row& row) {
+  if (row.region >= 0) return " m";
+  return row.kind && *row.kind->unit ? std::string(" ") + row.kind->unit : "";
+}
+
 std::string ConstraintSet::describeRow(int row) const {
   const Row& r = rows_[row];
   if (r.own >= 0) return "'" + r.name + "'";

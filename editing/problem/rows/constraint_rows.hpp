@@ -51,6 +51,9 @@ struct Row {
   bool overSpan() const { return region >= 0 || (kind && kind->over_span); }
 };
 
+/// " m/s": the unit of a row, after a number; empty where that has none, or is one's own.
+std::string unitOf(const Row& row);
+
 /// A time that a constraint `between` two times leaves to the edit: an unknown beside the controls.
 struct FreeTime {
   int constraint = -1;

@@ -89,6 +89,7 @@ const QuantityKind kPosition{
     .target = threeNumbers,
     .value = fieldOf<&BodyState::position>,
     .seed = fieldSeed<&StateSeed::position>,
+    .unit = "m",
 };
 const QuantityKind kOrientation{
     .word = "orientation",
@@ -101,6 +102,7 @@ const QuantityKind kOrientation{
     .seed = turnSeed,
     .seed_rate = turnSeedRate,
     .from_target = true,
+    .unit = "rad",
 };
 const QuantityKind kVelocity{
     .word = "velocity",
@@ -111,6 +113,7 @@ const QuantityKind kVelocity{
     .target = threeNumbers,
     .value = fieldOf<&BodyState::velocity>,
     .seed = fieldSeed<&StateSeed::velocity>,
+    .unit = "m/s",
 };
 // A spin is read in world axes, but the constant of a flight is the angular momentum.
 const QuantityKind kAngularVelocity{
@@ -123,6 +126,7 @@ const QuantityKind kAngularVelocity{
     .target = threeNumbers,
     .value = fieldOf<&BodyState::angular_velocity>,
     .seed = fieldSeed<&StateSeed::angular_velocity>,
+    .unit = "rad/s",
 };
 const QuantityKind kTime{
     .word = "time",
@@ -134,6 +138,7 @@ const QuantityKind kTime{
     .target = oneNumber,
     .value = timeOf,
     .seed = timeSeed,
+    .unit = "s",
 };
 const QuantityKind kPoint{
     .word = "point",
@@ -145,6 +150,7 @@ const QuantityKind kPoint{
     .value = pointOf,
     .seed = pointSeed,
     .seed_rate = pointSeedRate,
+    .unit = "m",
 };
 
 

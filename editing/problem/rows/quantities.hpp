@@ -40,7 +40,7 @@ struct QuantityKind {
   bool positive = false;     ///< never below 0, and without a regular derivative at 0: targets and maxima lie above
   bool of_shape = false;     ///< the body must have a lowest point
   bool from_another = true;  ///< makes sense as seen from another body
-  const char* unit = "";     ///< SI, for refusals
+  const char* unit = "";     ///< SI
   bool to_another = false;   ///< is about another body too, which the target names
   bool over_span = false;    ///< has a span of time of its own, whatever the constraint's
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "editing/problem/edit_problem.hpp"
@@ -14,5 +15,8 @@ namespace carom::editing_detail {
 /// (ShapeKind::innerRadius). A component left free counts only before a plane that it runs along. Uses the
 /// problem's source of contacts, which finds bodies that overlap.
 std::vector<WhyNot::Inside> nailsInSolids(const EditProblem& problem, const Scene& scene);
+
+/// "the nail of 'mug' at 1.2 s lies inside 'wall', which no motion can reach".
+std::string describeInside(const WhyNot::Inside& inside);
 
 }  // namespace carom::editing_detail

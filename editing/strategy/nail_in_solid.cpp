@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editing/report/nail_in_solid.hpp"
+#include "editing/strategy/nail_in_solid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -91,6 +91,10 @@ std::vector<WhyNot::Inside> nailsInSolids(const EditProblem& problem, const Scen
     }
   }
   return found;
+}
+
+std::string describeInside(const WhyNot::Inside& inside) {
+  return "the nail of " + inside.name + " lies inside '" + inside.solid + "', which no motion can reach";
 }
 
 }  // namespace carom::editing_detail
