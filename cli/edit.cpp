@@ -108,8 +108,10 @@ void printResult(Output& out, const EditResult& result, bool all_impacts) {
   out.text() << '\n'
              << counted(result.iterations, "iteration") << ", "
              << Output::brief(in_seconds ? result.milliseconds / 1000 : result.milliseconds) << (in_seconds ? " s\n" : " ms\n");
-  printSequences(out, result.sequence_before, result.sequence_after, all_impacts);
-  printCertificate(out, result.certificate);
+  if (result.status != EditStatus::infeasible) {  // there nothing has changed, and the motion of the start is not the answer
+    printSequences(out, result.sequence_before, result.sequence_after, all_impacts);
+    printCertificate(out, result.certificate);
+  }
   if (!result.why_not.sentences.empty()) out.text() << "  reasons:\n";
   for (const std::string& sentence : result.why_not.sentences)
     if (result.message.find(sentence) == std::string::npos) out.text() << "    " << sentence << '\n';
@@ -207,7 +209,8 @@ EditResult solve(const Output& out, Loaded& loaded, const EditArguments& options
 std::string describeFailure(const EditResult& result, const std::string& output, bool written) {
   const std::string sentence = std::string(nameOf(result.status)) + ": " + result.message;
   if (output.empty()) return sentence;
-  if (written) return sentence + (isStandard(output) ? " The best solution so far was written." : " The best solution so far is in " + output + ".");
+  const std::string best = result.met ? "best solution so far" : "nearest point so far, which does not meet the constraints,";
+  if (written) return sentence + " The " + best + (isStandard(output) ? " was written." : " is in " + output + ".");
   return sentence + " " + (isStandard(output) ? "Nothing" : output) + " was " + (isStandard(output) ? "" : "not ") +
          "written.";
 }
@@ -273,11 +276,12 @@ const Command kEditCommand{
     "--impacts). Numbers have three digits, or as many as distinguish before from after; --json has all.\n"
     "The edited scene is simulated again: the errors are those of its motion.\n"
     "OUT.json is written atomically, only if all constraints are met; the input is unchanged unless -o\n"
-    "names it. Ctrl-C ends the search: the best solution so far is verified, printed and written, its\n"
-    "status is cancelled, and the exit code 130; a second Ctrl-C ends it at once. With --alternatives\n"
-    "further solutions go to OUT-2.json, OUT-3.json, ...: each has another impact sequence, or clearly\n"
-    "different numbers; the smallest change comes first; those that cost more than ten times as much\n"
-    "come last and are marked. Exits with 3 and a message if the constraints cannot be met.\n"
+    "names it. Ctrl-C ends the search: the best point so far is verified, printed and written, even if\n"
+    "it does not meet them; its status is cancelled, and the exit code 130; a second Ctrl-C ends it at\n"
+    "once. With --alternatives further solutions go to OUT-2.json, OUT-3.json, ...: each has another\n"
+    "impact sequence, or clearly different numbers; the smallest change comes first; those that cost\n"
+    "more than ten times as much come last and are marked. Exits with 3 and a message if the\n"
+    "constraints cannot be met.\n"
     "\n"
     "Examples:\n"
     "  carom edit scene.json\n"
