@@ -73,7 +73,7 @@ bool energyOnlyFalls(const EditProblem& problem) {
   }
   return std::none_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) {
     const bool moves = !b.velocity.isZero(0) || !b.angular_velocity.isZero(0) || varies(problem, b.name, {"velocity", "angular_velocity"});
-    return (b.kinematic && moves) || (!b.immovable() && b.gravity_factor < 0);
+    return (b.kinematic && moves) || b.surfaceMoves() || (!b.immovable() && b.gravity_factor < 0);
   });
 }
 
