@@ -10,8 +10,9 @@
 /// Impacts, friction and persistent contact take energy and give none. With m mass, f gravity factor, T kinetic energy at the
 /// bounds of the controls, h height of the centre of mass, h_min the lowest that it can come to, of a body i at any time
 ///   T_i + m_i g f_i (h_i - h_min,i) <= sum_j (T_j(0) + m_j g f_j (h_j(0) - h_min,j)) = E
-/// Proven where gravity is along -z, velocities, spins and coefficients alone vary, no kinematic body and no surface moves, no normal is tilted,
-/// and below each moving body, but for the one whose height is asked for, there is a fixed horizontal plane that it collides with.
+/// Proven where gravity is along -z, velocities, spins and coefficients alone vary, no kinematic body and no surface moves, no normal
+/// is tilted, and below each moving body, but for the one whose height is asked for, there is a fixed horizontal plane that it
+/// collides with.
 namespace carom::editing_detail {
 
 /// A height above h_min,i + E / (m_i g f_i).
