@@ -2,7 +2,6 @@
 // Six blocks stand on each other. A light ball strikes the one at the top, which friction holds, and the edit finds the throw after
 // which it comes down on a mark on the floor.
 #include <cstdio>
-#include <string>
 
 #include "editing/edit.h"
 #include "ode_bridge/ode_contacts.h"
@@ -11,7 +10,7 @@ using namespace carom;
 
 namespace {
 
-Body block(const std::string& name, double x, double z) {
+Body block(const char* name, double x, double z) {
   Body body;
   body.name = name, body.material = "wood", body.mass = 2, body.shape = Box{{0.3, 0.3, 0.2}}, body.position = {x, 0, z};
   return body;

@@ -91,7 +91,7 @@ Pass passOf(const Motion& motion, const Event& event) {
     const auto& arcs = motion.world_lines[static_cast<std::size_t>(p.body)].arcs;
     const Arc& next = arcs[static_cast<std::size_t>(p.next())];
     rate_before.push_back(arcs[static_cast<std::size_t>(p.arc)].rateAt(event.time, p.before));
-    rate_after.push_back(next.startRate());
+    rate_after.push_back(p.stays ? rate_before.back() : next.startRate());
   }
   return {event,
           usesDoubleDouble(event, *motion.models),

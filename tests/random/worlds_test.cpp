@@ -82,7 +82,7 @@ Vec3 velocityAfter(const Motion& m, const Event& e, const Contact& c) {
     const Participant* p = e.find(body);
     if (!p) continue;
     const Arc& next = m.world_lines[static_cast<std::size_t>(body)].arcs[static_cast<std::size_t>(p->next())];
-    const Kinematics k = next.kinematicsOf(next.startState());
+    const Kinematics k = next.kinematicsOf(p->stays ? p->before : next.startState());
     u += (body == c.a ? 1.0 : -1.0) * (k.v + k.w.cross(c.at.point - k.x));
   }
   return u;
