@@ -66,16 +66,15 @@ if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
   list(APPEND CMAKE_CXX_COMPILER_LAUNCHER ${PROJECT_SOURCE_DIR})
 endif()
 
-# The linker: mold takes a fraction of the time of the default one, with which nothing else changes.
+# The linker: mold takes a fraction of the time of the default one, with which nothing else changes. Before 2.4 it may protect a page
+# that is not there, by chance of the layout, and such a program does not start (rui314/mold#1151); and 1.10.1 never ended on
+# some programs, in their GNU hash tables.
 find_program(CAROM_MOLD mold)
 mark_as_advanced(CAROM_MOLD)
 if(CAROM_MOLD AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
-  add_link_options(-fuse-ld=mold)
-  # Before 2.4 it may protect a page that is not there, by chance of the layout, and such a program does not start
-  # (rui314/mold#1151).
   execute_process(COMMAND ${CAROM_MOLD} --version OUTPUT_VARIABLE mold_version)
-  if(mold_version MATCHES "mold ([0-9]+[.][0-9]+)" AND CMAKE_MATCH_1 VERSION_LESS 2.4)
-    add_link_options(LINKER:-z,norelro)
+  if(mold_version MATCHES "mold ([0-9]+[.][0-9]+)" AND CMAKE_MATCH_1 VERSION_GREATER_EQUAL 2.4)
+    add_link_options(-fuse-ld=mold)
   endif()
 endif()
 
