@@ -45,7 +45,7 @@ class ConstrainedForceRates {
 
 /// The value of a guard up to a factor, with its rates (see guardValue).
 ConstrainedLanes::Number guardRateOf(const ConstrainedGuard& guard, const ConstrainedPath& path, const ConstrainedInputs& inputs,
-                              const ConstrainedForceRates& force_rates, const ConstrainedLanes& lanes, int first, int count,
-                   const ConstrainedRates& rates);
+                                     const ConstrainedForceRates& force_rates, const ConstrainedLanes& lanes, int first, int count,
+                                     const ConstrainedRates& rates);
 
 }  // namespace carom::adjoint_detail

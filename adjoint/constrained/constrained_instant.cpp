@@ -16,7 +16,8 @@ void placeInstant(const ConstrainedScene& scene, const std::vector<PersistentCon
   now.gap_rate.resize(contacts.size());
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const PersistentContact& held = contacts[k];
-    const ContactMotion m = scene.contact(held, k, pose, {state.v, body.omega}, t);
+    const SupportInstant<double> support = scene.with[k].at(t);
+    const ContactMotion m = scene.contact(held, pose, {state.v, body.omega}, {support.x, support.R}, {support.v, support.w});
     const double sign = held.is_first ? 1 : -1;
     ContactInstant<double>& c = now.contacts[k];
     c.mode = held.mode;
@@ -25,7 +26,6 @@ void placeInstant(const ConstrainedScene& scene, const std::vector<PersistentCon
     c.friction = held.friction;
     now.gap_rate[k] = m.gap_rate;
     if (!scene.with[k].drives()) continue;
-    const SupportInstant<double> support = scene.with[k].at(t);
     c.support_velocity = support.velocityAt(m.at.point, c.n);
     c.support_acceleration = support.accelerationAt(m.at.point, c.n, m.point_rate, c.normal_rate);
   }

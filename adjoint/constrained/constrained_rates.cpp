@@ -18,14 +18,12 @@ ConstrainedRates::ConstrainedRates(const ConstrainedScene& scene, const std::vec
       continue;
     }
     const int a = c.is_first ? scene.body : c.with, b = c.is_first ? c.with : scene.body;
-    const Pose other = scene.with[k].poseAt(t), &A = c.is_first ? own_ : other, &B = c.is_first ? other : own_;
+    const SupportInstant<double> support = scene.with[k].at(t);
+    const Pose other{support.x, support.R}, &A = c.is_first ? own_ : other, &B = c.is_first ? other : own_;
     jacobians_.push_back(scene.geometry->jacobian(a, b, c.features, A, B));
     PairTangent way;
     way.pose.segment<6>(c.is_first ? 0 : 6) << state.v, now_.body.omega;
-    if (flows_.back().moves) {
-      const SupportInstant<double> support = scene.with[k].at(t);
-      way.pose.segment<6>(c.is_first ? 6 : 0) << support.v, support.w;
-    }
+    way.pose.segment<6>(c.is_first ? 6 : 0) << support.v, support.w;
     jacobian_rates_.push_back(scene.geometry->jacobianRates(a, b, c.features, A, B, std::span(&way, 1)).front());
   }
 }

@@ -91,8 +91,8 @@ LaneNumber sharedRate(const ConstrainedShare& share, const std::vector<ContactIn
 }  // namespace
 
 LaneNumber guardRateOf(const ConstrainedGuard& guard, const ConstrainedPath& path, const ConstrainedInputs& inputs,
-                   const ConstrainedForceRates& force_rates, const ConstrainedLanes& lanes, int first, int count,
-                   const ConstrainedRates& rates) {
+                       const ConstrainedForceRates& force_rates, const ConstrainedLanes& lanes, int first, int count,
+                       const ConstrainedRates& rates) {
   const auto k = static_cast<std::size_t>(guard.contact);
   const ContactInstant<LaneNumber>& c = lanes.contacts[k];
   if (guard.cause == TransitionCause::leaves) return borderRate(guard, path, inputs, lanes, first, count, rates);

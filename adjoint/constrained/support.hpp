@@ -25,24 +25,18 @@ struct SupportInstant {
   /// Of its material at a place p on a face with normal n: V + W x (p - x) + beta, see SurfaceMotion.
   V3<S> velocityAt(const V3<S>& p, const V3<S>& n) const {
     const V3<S> u = v + w.cross(V3<S>(p - x));
-    return has_belt ? V3<S>(u + SurfaceMotion<S>{surface_velocity, surface_angular_velocity, R, origin()}.at(p, n)) : u;
+    return has_belt ? V3<S>(u + surface().at(p, n)) : u;
   }
   /// d/dt of that, as place and normal go at p' and n'.
   V3<S> accelerationAt(const V3<S>& p, const V3<S>& n, const V3<S>& p_rate, const V3<S>& n_rate) const {
     const V3<S> arm = p - x, u = a + alpha.cross(arm) + w.cross(V3<S>(p_rate - v));
     if (!has_belt) return u;
-    const V3<S> B = beltAt(p), turning = R * surface_angular_velocity;
     const V3<S> origin_rate = v - w.cross(V3<S>(R * center));
-    const V3<S> B_rate = w.cross(V3<S>(R * surface_velocity)) + w.cross(turning).cross(V3<S>(p - origin())) +
-                         turning.cross(V3<S>(p_rate - origin_rate));
-    return u + B_rate - n * n.dot(B_rate) - n_rate * n.dot(B) - n * n_rate.dot(B);
+    return u + surface().tangent(p, n, {.point = p_rate, .normal = n_rate, .position = origin_rate, .theta = w});
   }
 
  private:
-  V3<S> origin() const { return x - R * center; }
-  V3<S> beltAt(const V3<S>& p) const {
-    return R * surface_velocity + V3<S>(R * surface_angular_velocity).cross(V3<S>(p - origin()));
-  }
+  SurfaceMotion<S> surface() const { return {surface_velocity, surface_angular_velocity, R, x - R * center}; }
 };
 
 /// The other body of a contact: it stands still, or moves as it is given to, whatever lies on it; and its surface may move.
@@ -75,6 +69,9 @@ struct Support {
     return now;
   }
 };
+
+/// The material of a body that no contact moves, from the start of its last arc on, moves at contacts: Support::drives.
+bool drivesContacts(const Motion& motion, int body);
 
 /// Of a body that no contact moves, from a time on.
 Support supportOf(const Motion& motion, int body, double t);

@@ -174,8 +174,7 @@ void Simulator::chooseArc(std::size_t participant) {
   std::vector<Contact> closed = closedContacts(body, ends);
   State& after = draft_.after[participant];
   ContactChoice choice;
-  const bool driven =
-      std::ranges::any_of(closed, [&](const Contact& c) { return supportOf(motion_, c.a == body ? c.b : c.a, event.time).drives(); });
+  const bool driven = std::ranges::any_of(closed, [&](const Contact& c) { return drivesContacts(motion_, c.a == body ? c.b : c.a); });
   const std::vector<Contact> marks = driven ? std::vector<Contact>() : tiltFrom(closed, body, after);
   if (!marks.empty()) {
     choice = tiltingPathOf(motion_, body, after, pointersTo(marks), pointersTo(closed), event.time, hintOf(closed));

@@ -134,7 +134,7 @@ bool SupportedBody::liesOnItsSide() const {
 Vec3 SupportedBody::axis() const { return model_.has_offset ? Vec3(model_.R_BG * Vec3::UnitZ()) : Vec3(Vec3::UnitZ()); }
 
 bool SupportedBody::isDriven() const {
-  return std::ranges::any_of(pressed_, [&](const Contact* c) { return supportOf(motion_, otherOf(*c), time_).drives(); });
+  return std::ranges::any_of(pressed_, [&](const Contact* c) { return drivesContacts(motion_, otherOf(*c)); });
 }
 
 bool SupportedBody::isOneFace() const {
