@@ -5,43 +5,22 @@
 
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/lasting_scenes.h"
+#include "tests/support/moving_target_scenes.h"
+#include "tests/support/thrown_box.h"
 
 namespace carom::test {
 namespace {
 
-const Vec3 kGravity(0.2, -0.1, -9.81);
-const Quat kAskew = Quat(0.8, 0.3, -0.4, 0.2).normalized();
-
 Body floorPlane() { return makePlane("floor", Vec3::UnitZ(), 0); }
-
-Body thrownBox() {
-  Body b = makeBox("box", {0.3, 0.2, 0.1}, {0, 0, 0.6}, {1, 0.3, -1});
-  b.orientation = kAskew;
-  b.angular_velocity = {2, -3, 1};
-  return b;
-}
-
-Scene boxOnFloor(double elasticity, double friction, double tangential = 0) {
-  Scene s = makeScene(kGravity, elasticity, friction, {thrownBox(), floorPlane()});
-  s.materials[0].tangential_elasticity = tangential;
-  return s;
-}
 
 Scene frictionless() { return boxOnFloor(0.7, 0); }
 Scene stick() { return boxOnFloor(0.7, 2, 0.3); }
 Scene slide() { return boxOnFloor(0.7, 0.05, 0.3); }
 
-// flat on the floor: four contacts at once
-Scene joint(double friction) {
-  Scene s = boxOnFloor(0.6, friction, 0.2);
-  s.gravity = {0, 0, -9.81};
-  s.bodies[0].orientation.setIdentity();
-  s.bodies[0].angular_velocity.setZero();
-  return s;
-}
-Scene jointStick() { return joint(3); }
-Scene jointSlide() { return joint(0.1); }
-Scene jointFrictionless() { return joint(0); }
+// four contacts at once
+Scene jointStick() { return flatBoxOnFloor(3); }
+Scene jointSlide() { return flatBoxOnFloor(0.1); }
+Scene jointFrictionless() { return flatBoxOnFloor(0); }
 
 // a disc flat on something narrower: where its rim crosses edges, or another rim
 Scene discOn(const Shape& low, const Vec3& at) {
@@ -94,13 +73,13 @@ Scene inertiaMatrix() {
 }
 
 Scene ballOnFloor() {
-  Scene s = makeScene(kGravity, 0.7, 0.3, {makeBall("ball", 0.1, {0, 0, 0.7}, {1, 0.4, -1}), floorPlane()});
+  Scene s = makeScene(kThrownGravity, 0.7, 0.3, {makeBall("ball", 0.1, {0, 0, 0.7}, {1, 0.4, -1}), floorPlane()});
   s.bodies[0].angular_velocity = {3, 20, -4};
   return s;
 }
 
 Scene pair(Body a, Body b, double friction = 0.3) {
-  return makeScene(kGravity, 0.8, friction, {std::move(a), std::move(b), floorPlane()});
+  return makeScene(kThrownGravity, 0.8, friction, {std::move(a), std::move(b), floorPlane()});
 }
 
 Body ballFrom(const Vec3& position, const Vec3& to) {
@@ -154,7 +133,7 @@ Scene edgeEdge() {
 Scene fixedBoxPose() {
   Body step = fixedBody(makeBox("step", {0.5, 0.4, 0.3}, {0.35, 0, 0.15}));
   step.orientation = Quat(0.97, 0.1, -0.1, 0.2).normalized();
-  return makeScene(kGravity, 0.7, 0.3, {ballFrom({-0.3, 0, 1}, {0.3, 0, 0.3}), step, floorPlane()});
+  return makeScene(kThrownGravity, 0.7, 0.3, {ballFrom({-0.3, 0, 1}, {0.3, 0, 0.3}), step, floorPlane()});
 }
 
 Scene planeFirst() {  // the plane as first body of the pair
@@ -200,122 +179,6 @@ Scene gravityFactors() {
   Scene s = ballBall();
   s.bodies[0].gravity_factor = 0.3;
   s.bodies[1].gravity_factor = 0.9;
-  return s;
-}
-
-Body kinematicSlab(const Vec3& velocity, const Vec3& spin) {
-  Body b = makeBox("slab", {2, 2.2, 0.2}, {0.1, 0, 0.1}, velocity);
-  b.mass.reset();
-  b.kinematic = true;
-  b.angular_velocity = spin;
-  b.gravity_factor = 3;  // has no say
-  return b;
-}
-const Vec3 kSlabVelocity(0.3, -0.2, 0.4), kSlabSpin(0.2, -0.3, 0.5);
-Scene kinematicTarget() {
-  return makeScene(kGravity, 0.7, 0.3, {thrownBox(), kinematicSlab(kSlabVelocity, kSlabSpin)});
-}
-Scene kinematicFirst() {
-  return makeScene(kGravity, 0.7, 0.3, {kinematicSlab(kSlabVelocity, kSlabSpin), thrownBox()});
-}
-Scene kinematicFrictionless() {
-  Scene s = kinematicTarget();
-  s.materials[0].friction = 0;
-  return s;
-}
-Scene kinematicOffset() {
-  Scene s = kinematicTarget();
-  s.bodies[1].center_of_mass = Vec3(0.2, -0.3, 0.05);
-  return s;
-}
-// whose centre moves with its sizes
-Scene kinematicCompound() {
-  Scene s = kinematicTarget();
-  Compound parts;
-  parts.parts.push_back({Box{{2, 2.2, 0.2}}, Vec3::Zero(), Quat::Identity()});
-  parts.parts.push_back({Box{{0.3, 0.4, 0.5}}, {-0.8, 0.7, -0.2}, Quat(0.9, 0.1, 0.2, 0.1).normalized()});
-  s.bodies[1].shape = parts;
-  return s;
-}
-Scene kinematicJoint(double friction) {
-  Scene s = joint(friction);
-  s.bodies[1] = kinematicSlab({0.2, -0.1, 0.3}, Vec3::Zero());
-  return s;
-}
-Scene kinematicJointStick() { return kinematicJoint(3); }
-Scene kinematicJointSlide() { return kinematicJoint(0.1); }
-// half on a slab that moves and half on one that does not
-Scene kinematicAndFixed(double friction) {
-  Scene s = joint(friction);
-  Body moving = kinematicSlab({0.2, 0.1, 0}, Vec3::Zero()), still = fixedBody(moving);
-  moving.position.x() = -1.2, still.position.x() = 1;
-  still.kinematic = false, still.velocity.setZero(), still.name = "still";
-  s.bodies[0].velocity = {0, 0, -1};
-  s.bodies.pop_back();
-  s.bodies.push_back(moving);
-  s.bodies.push_back(still);
-  return s;
-}
-Scene kinematicAndFixedFrictionless() { return kinematicAndFixed(0); }
-Scene kinematicAndFixedFriction() { return kinematicAndFixed(0.5); }
-
-// Surfaces that move: of a floor, of a slope that lies and is turned anyhow, of a body that moves itself.
-Scene belt() {
-  Scene s = boxOnFloor(0.7, 0.3);
-  s.bodies[1].surface_velocity = {1.2, -0.4, 0.3};
-  return s;
-}
-Scene beltFirst() {
-  Scene s = belt();
-  std::swap(s.bodies[0], s.bodies[1]);
-  return s;
-}
-Scene turntable(double friction) {
-  Body plate = fixedBody(makeBox("plate", {6, 5, 0.4}, {-0.3, 0.2, -0.1}));
-  plate.orientation = Quat(0.95, 0.12, -0.08, 0.2).normalized();
-  plate.surface_velocity = {0.3, 0.2, -0.1}, plate.surface_angular_velocity = {0.4, -0.3, 2.5};
-  return makeScene(kGravity, 0.7, friction, {thrownBox(), plate});
-}
-Scene turntableStick() { return turntable(2); }
-Scene turntableSlide() { return turntable(0.1); }
-Scene turntableFrictionless() { return turntable(0); }
-Scene turntableTilt() {
-  Scene s = turntable(0.3);
-  s.tilts = {{"box", 1, {0.03, -0.05}}};
-  return s;
-}
-Scene ballOnRoller() {
-  Body roller = fixedBody(makeBall("roller", 0.5, {0.05, 0.02, 0}));
-  roller.surface_angular_velocity = {1.5, 4, -2};
-  return makeScene(kGravity, 0.6, 0.2, {makeBall("ball", 0.1, {0, 0, 1.2}, {0.1, 0, 0}), roller});
-}
-Scene kinematicBelt() {
-  Scene s = kinematicOffset();
-  s.bodies[1].surface_velocity = {-0.7, 0.5, 0.2}, s.bodies[1].surface_angular_velocity = {0.2, 0.6, -1.5};
-  return s;
-}
-Scene kinematicCompoundBelt() {
-  Scene s = kinematicCompound();
-  s.bodies[1].surface_velocity = {-0.7, 0.5, 0.2}, s.bodies[1].surface_angular_velocity = {0.2, 0.6, -1.5};
-  return s;
-}
-Scene jointBelt(double friction) {
-  Scene s = joint(friction);
-  s.bodies[1].surface_velocity = {0.8, -0.3, 0}, s.bodies[1].surface_angular_velocity = {0, 0, 1.1};
-  return s;
-}
-Scene jointBeltStick() { return jointBelt(3); }
-Scene jointBeltSlide() { return jointBelt(0.1); }
-// half on a belt and half on a floor, or on belts that run apart
-Scene beltAndFloor() {
-  Scene s = kinematicAndFixed(0.5);
-  for (std::size_t b : {1u, 2u}) s.bodies[b].fixed = true, s.bodies[b].kinematic = false, s.bodies[b].velocity.setZero();
-  s.bodies[1].surface_velocity = {0.6, 0.2, 0};
-  return s;
-}
-Scene beltsApart() {
-  Scene s = beltAndFloor();
-  s.bodies[2].surface_velocity = {-0.2, 0.4, 0};
   return s;
 }
 
@@ -371,29 +234,8 @@ std::vector<DotProductScene> dotProductScenes() {
       {"several_bodies", threeBodies, 5},
       {"gravity_factor", gravityFactor},
       {"gravity_factors", gravityFactors, 2, {"ball on ball"}},
-      {"kinematic", kinematicTarget},
-      {"kinematic_first", kinematicFirst},
-      {"kinematic_frictionless", kinematicFrictionless},
-      {"kinematic_offset", kinematicOffset},
-      {"kinematic_compound", kinematicCompound},
-      {"kinematic_joint_stick", kinematicJointStick, 2, {"joint"}},
-      {"kinematic_joint_slide", kinematicJointSlide, 2, {"joint"}},
-      {"kinematic_and_fixed_frictionless", kinematicAndFixedFrictionless, 1, {"joint"}},
-      {"kinematic_and_fixed_friction", kinematicAndFixedFriction, 1, {"joint"}},
-      {"belt", belt, 3},
-      {"belt_first", beltFirst, 3},
-      {"turntable_stick", turntableStick, 2, {"stick"}},
-      {"turntable_slide", turntableSlide, 2, {"slide"}},
-      {"turntable_frictionless", turntableFrictionless, 2, {"frictionless"}},
-      {"turntable_tilt", turntableTilt, 2},
-      {"ball_on_roller", ballOnRoller, 1, {"ball on ball"}},
-      {"kinematic_belt", kinematicBelt},
-      {"kinematic_compound_belt", kinematicCompoundBelt},
-      {"joint_belt_stick", jointBeltStick, 2, {"joint"}},
-      {"joint_belt_slide", jointBeltSlide, 1, {"joint"}},
-      {"belt_and_floor", beltAndFloor, 1, {"joint"}},
-      {"belts_apart", beltsApart, 1, {"joint"}},
   };
+  for (DotProductScene& row : movingTargetScenes()) rows.push_back(std::move(row));
   for (DotProductScene& row : lastingScenes()) rows.push_back(std::move(row));
   return rows;
 }
