@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "adjoint/contact/contact_path.hpp"
+#include "adjoint/constrained/ride_path.hpp"
 #include "adjoint/simulate/simulate.h"
 
 namespace carom::cli {
@@ -15,15 +15,22 @@ using Component = formats_detail::ScenePlan::Component;
 // Of a motion of this length, s, what it begins with alone is asked.
 constexpr double kAtOnce = 1e-9;
 
-std::string whyItRests(const Motion& motion, const Event& event) {
-  bool opposed = true;
-  for (const Participant& p : event.participants) {
-    const Arc& arc = motion.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.next())];
-    opposed = opposed && arc.closedForm() && !arc.closedForm()->loose;
-  }
+// ", on 'lift', which carries them"; nothing where they stand still.
+std::string carriedBy(const Motion& motion, const Event& event, int body) {
+  const Arc& arc = motion.world_lines[static_cast<std::size_t>(body)].arcs[static_cast<std::size_t>(event.find(body)->next())];
+  const adjoint_detail::RidePath* ride = arc.trajectory().ride();
+  if (!ride) return {};
+  return ", on '" + motion.scene->bodies[static_cast<std::size_t>(ride->carrier().body)].name + "', which carries them";
+}
+
+std::string whyItRests(const Motion& motion, const Event& event, const std::vector<int>& bodies) {
+  const bool opposed = std::ranges::none_of(bodies, [&](int body) {
+    const Participant& p = *event.find(body);
+    return motion.world_lines[static_cast<std::size_t>(body)].arcs[static_cast<std::size_t>(p.next())].trajectory().isLoose();
+  });
   const auto contacts = std::ranges::count_if(event.contacts, &Contact::lasts);
-  return "forces within the cones of friction at " + std::to_string(contacts) + " contacts hold all of them" +
-                  (opposed ? "" : "; some motion of them is not opposed");
+  return "forces within the cones of friction at " + std::to_string(contacts) + " contacts hold all of them" + carriedBy(motion, event, bodies.front()) +
+         (opposed ? "" : "; some motion of them is not opposed");
 }
 
 }  // namespace
@@ -34,11 +41,14 @@ std::vector<Component> componentsAtStart(const Scene& scene, OdeContacts& contac
   options.impact_limit = scene.bodies.size();
   const Motion motion = simulate(scene, contacts, kAtOnce, options);
   for (const Event& event : motion.events) {
-    if (event.kind != EventKind::placed || event.participants.size() < 2) continue;
+    std::vector<int> bodies;  // that impulses move
+    for (const Participant& p : event.participants)
+      if (!scene.bodies[static_cast<std::size_t>(p.body)].immovable()) bodies.push_back(p.body);
+    if (event.kind != EventKind::placed || bodies.size() < 2) continue;
     Component& component = found.emplace_back();
-    for (const Participant& p : event.participants) component.bodies.push_back(p.body);
+    component.bodies = bodies;
     component.rests = !(&event == &motion.events.back() && motion.status == MotionStatus::unresolved_contact && motion.end == 0);
-    component.why = component.rests ? whyItRests(motion, event) : motion.message;
+    component.why = component.rests ? whyItRests(motion, event, bodies) : motion.message;
   }
   return found;
 }

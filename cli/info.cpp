@@ -62,7 +62,7 @@ ScenePlan::Pair pairOf(const Output& out, const Scene& scene, int a, int b) {
 std::vector<ScenePlan::Lasting> lastingOf(const Scene& scene) {
   std::vector<ScenePlan::Lasting> lasting(scene.bodies.size());
   const bool carries = std::ranges::any_of(scene.bodies, [](const Body& body) {
-    return body.kinematic && !(body.velocity.isZero(0) && body.angular_velocity.isZero(0));
+    return (body.kinematic && !(body.velocity.isZero(0) && body.angular_velocity.isZero(0))) || body.surfaceMoves();
   });
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];

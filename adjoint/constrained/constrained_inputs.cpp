@@ -26,6 +26,30 @@ Eigen::Matrix<double, 6, 1> SupportFlow::poseBy(int column) const {
   return by;
 }
 
+// It comes there uniformly.
+StateDerivative SupportStart::tangent(const BodyDerivative& dbody) const {
+  StateDerivative d = startTangent(body_, model_, dbody, modelTangent(body_, model_, dbody));
+  d.x += flow_.elapsed * d.v;
+  d.theta = flow_.turned * d.theta + flow_.by_spin * d.L;
+  return d;
+}
+
+void SupportStart::pullback(StateDerivative bar, BodyDerivative& body_bar) const {
+  bar.v += flow_.elapsed * bar.x;
+  bar.L += flow_.by_spin.transpose() * bar.theta;
+  bar.theta = flow_.turned.transpose() * bar.theta;
+  BodyModelDerivative model_bar;
+  startPullback(body_, model_, bar, body_bar, model_bar);
+  modelPullback(body_, model_, model_bar, body_bar);
+}
+
+SupportStart fromSceneStart(const Motion& motion, int body, const Support& support, double t) {
+  Support from_start = support;
+  from_start.pose = from_start.poseAt(0);
+  const auto b = static_cast<std::size_t>(body);
+  return {motion.scene->bodies[b], (*motion.models)[b], SupportFlow::of(from_start, 0, t)};
+}
+
 Eigen::VectorXd timeShift(const ConstrainedScene& scene, const ConstrainedInputs& inputs, double t) {
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(inputs.count);
   for (std::size_t k = 0; k < scene.with.size(); ++k) {

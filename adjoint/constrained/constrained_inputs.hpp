@@ -21,6 +21,22 @@ struct SupportFlow {
   Eigen::Matrix<double, 6, 1> poseBy(int column) const;
 };
 
+/// How the state of a kinematic body at a time goes with what the scene says of it; its L is its angular velocity.
+class SupportStart {
+ public:
+  SupportStart(const Body& body, const BodyModel& model, const SupportFlow& flow) : body_(body), model_(model), flow_(flow) {}
+  StateDerivative tangent(const BodyDerivative& dbody) const;
+  /// Its adjoint: adds to that of the body.
+  void pullback(StateDerivative bar, BodyDerivative& body_bar) const;
+
+ private:
+  const Body& body_;
+  const BodyModel& model_;
+  SupportFlow flow_;
+};
+/// Of a support that moves uniformly, at time t.
+SupportStart fromSceneStart(const Motion& motion, int body, const Support& support, double t);
+
 /// All that a path in lasting contact depends on, in columns: its start (x, theta, v, L), then gravity, mass, inertia
 /// (three moments and yz, xz, xy), the dimensions of the body; of each body that it is in contact with position and
 /// orientation (a rotation vector) at the start of the path, 6, and dimensions; of one that moves velocity and angular velocity,

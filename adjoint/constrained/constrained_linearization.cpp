@@ -99,39 +99,13 @@ ConstrainedColumns::ConstrainedColumns(const Motion& motion, const ConstrainedSc
                          c.is_first ? rule.by_b : rule.by_a});
   }
   for (std::size_t k = 0; k < contacts.size(); ++k)
-    if (held.with[k].moves() && !held.with[k].isGiven() && !carrierOf(contacts[k].with)) {
-      const int body = contacts[k].with;
-      Support from_start = held.with[k];
-      from_start.pose = from_start.poseAt(0);
-      carriers_.push_back({body, &(*motion.models)[constrainedIndex(body)], SupportFlow::of(from_start, 0, held.time)});
-    }
+    if (held.with[k].moves() && !held.with[k].isGiven() && !carriedOf(contacts[k].with))
+      carried_.push_back({contacts[k].with, fromSceneStart(motion, contacts[k].with, held.with[k], held.time)});
 }
 
-const ConstrainedColumns::Carrier* ConstrainedColumns::carrierOf(int body) const {
-  const auto at = std::ranges::find(carriers_, body, &Carrier::body);
-  return at == carriers_.end() ? nullptr : &*at;
-}
-
-// Its state at the start of the path, which it comes to uniformly from that of the scene; its L is its angular velocity.
-StateDerivative ConstrainedColumns::carried(const Carrier& carrier, const SceneTangent& dscene) const {
-  const Body& body = scene_->bodies[constrainedIndex(carrier.body)];
-  const BodyDerivative& dbody = dscene.bodies[constrainedIndex(carrier.body)];
-  const BodyModelDerivative dmodel = modelTangent(body, *carrier.model, dbody);
-  StateDerivative d = startTangent(body, *carrier.model, dbody, dmodel);
-  d.x += carrier.flow.elapsed * d.v;
-  d.theta = carrier.flow.turned * d.theta + carrier.flow.by_spin * d.L;
-  return d;
-}
-
-void ConstrainedColumns::carriedPullback(const Carrier& carrier, const Eigen::Matrix<double, 12, 1>& bar, SceneGradient& scene_bar) const {
-  const Body& body = scene_->bodies[constrainedIndex(carrier.body)];
-  StateDerivative d = asState(bar);
-  d.v += carrier.flow.elapsed * d.x;
-  d.L += carrier.flow.by_spin.transpose() * d.theta;
-  d.theta = carrier.flow.turned.transpose() * d.theta;
-  BodyModelDerivative model_bar;
-  startPullback(body, *carrier.model, d, scene_bar.bodies[constrainedIndex(carrier.body)], model_bar);
-  modelPullback(body, *carrier.model, model_bar, scene_bar.bodies[constrainedIndex(carrier.body)]);
+const ConstrainedColumns::Carried* ConstrainedColumns::carriedOf(int body) const {
+  const auto at = std::ranges::find(carried_, body, &Carried::body);
+  return at == carried_.end() ? nullptr : &*at;
 }
 
 Eigen::VectorXd ConstrainedColumns::tangent(const StateDerivative& start, const SceneTangent& dscene,
@@ -149,8 +123,8 @@ Eigen::VectorXd ConstrainedColumns::tangent(const StateDerivative& start, const 
     if (p.velocity < 0) {
       d.segment<3>(p.pose) = body.position;
       d.segment<3>(p.pose + 3) = body.orientation;
-    } else if (const Carrier* carrier = carrierOf(p.body)) {
-      const StateDerivative start_of = carried(*carrier, dscene);
+    } else if (const Carried* carried = carriedOf(p.body)) {
+      const StateDerivative start_of = carried->start.tangent(body);
       d.segment<6>(p.pose) << start_of.x, start_of.theta;
       d.segment<6>(p.velocity) << start_of.v, start_of.L;
     }
@@ -178,10 +152,10 @@ StateDerivative ConstrainedColumns::pullback(const Eigen::VectorXd& bar, SceneGr
     if (p.velocity < 0) {
       body.position += bar.segment<3>(p.pose);
       body.orientation += bar.segment<3>(p.pose + 3);
-    } else if (const Carrier* carrier = carrierOf(p.body)) {
+    } else if (const Carried* carried = carriedOf(p.body)) {
       Eigen::Matrix<double, 12, 1> at_start;
       at_start << bar.segment<6>(p.pose), bar.segment<6>(p.velocity);
-      carriedPullback(*carrier, at_start, scene_bar);
+      carried->start.pullback(asState(at_start), body);
     }
     if (p.surface >= 0) {
       body.surface_velocity += bar.segment<3>(p.surface);

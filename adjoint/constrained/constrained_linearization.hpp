@@ -28,20 +28,17 @@ class ConstrainedColumns {
     int own, other;  // materials; -1 for none
     double by_own, by_other;
   };
-  // A support that moves: its start as the scene has it, and how far its pose at the start of the path goes with that.
-  struct Carrier {
+  // A support that moves.
+  struct Carried {
     int body;
-    const BodyModel* model;
-    SupportFlow flow;  // from time 0 on
+    SupportStart start;
   };
-  const Carrier* carrierOf(int body) const;
-  StateDerivative carried(const Carrier& carrier, const SceneTangent& dscene) const;
-  void carriedPullback(const Carrier& carrier, const Eigen::Matrix<double, 12, 1>& bar, SceneGradient& scene_bar) const;
+  const Carried* carriedOf(int body) const;
 
   const Scene* scene_;
   int body_;
   ConstrainedInputs inputs_;
-  std::vector<Carrier> carriers_;
+  std::vector<Carried> carried_;
   std::vector<Friction> friction_;
 };
 

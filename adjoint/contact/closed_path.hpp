@@ -21,6 +21,7 @@ class ClosedPath final : public Trajectory {
   double availableUntil(const Arc& arc) const override;
   std::shared_ptr<const TrajectoryLinearization> linearise(const Motion& motion, int body, int k, double t) const override;
   const ContactPath* closedForm() const override { return &path_; }
+  bool isLoose() const override { return path_.loose; }
 
  private:
   ContactPath path_;

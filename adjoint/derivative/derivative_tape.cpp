@@ -11,6 +11,7 @@
 #include "adjoint/derivative/ground_seams.hpp"
 #include "adjoint/derivative/single_impact.hpp"
 #include "adjoint/constrained/constrained_path.hpp"
+#include "adjoint/constrained/ride_path.hpp"
 #include "adjoint/impact/tilt.hpp"
 #include "adjoint/motion/pair_rules.hpp"
 #include "adjoint/motion/time_argument.hpp"
@@ -189,7 +190,7 @@ void Reliability::passArc(const Motion& motion, int body, int k) {
   if (arc.trajectory().constrained()) passConstrained(motion, body, arc, &arc == &arcs.back() ? motion.end : (&arc + 1)->start());
   if (beginsToSlip(arc)) passBeginning(motion, body, k);
   passStill(motion, body, arc);
-  if (arc.closedForm() && arc.closedForm()->loose) passLoose(motion, body, k);
+  if (arc.trajectory().isLoose()) passLoose(motion, body, k);
 }
 
 namespace {
@@ -222,6 +223,8 @@ void Reliability::passStill(const Motion& motion, int body, const Arc& arc) {
       stays(path->contacts()[k].with, !path->scene().with[k].moves(), !path->scene().with[k].has_belt);
   } else if (arc.closedForm()) {
     stays(arc.closedForm()->face, true, true);
+  } else if (const RidePath* ride = arc.trajectory().ride()) {
+    stays(ride->carrier().body, ride->carrier().isBelt(), !ride->carrier().isBelt());
   }
 }
 

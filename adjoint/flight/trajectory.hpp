@@ -16,6 +16,7 @@ namespace carom::adjoint_detail {
 
 struct ContactPath;
 class ConstrainedPath;
+class RidePath;
 struct PathGuard;
 struct PathStart;
 class TrajectoryLinearization;
@@ -87,6 +88,10 @@ class Trajectory {
   virtual const ContactPath* closedForm() const { return nullptr; }
   /// Its contacts and their modes where they constrain it, which a replay keeps to.
   virtual const ConstrainedPath* constrained() const { return nullptr; }
+  /// What carries it where it rests on that with others.
+  virtual const RidePath* ride() const { return nullptr; }
+  /// Of rest: contacts do not hold the body against every motion.
+  virtual bool isLoose() const { return false; }
 };
 
 /// Free flight with the rotation of a tier, from a state on (flights.cpp). But for triaxial bodies, whose series it keeps, it

@@ -21,7 +21,8 @@ ImpactInputs<double> impactInputs(const Event& event, const std::vector<BodyMode
   for (const Participant& p : event.participants) {
     const BodyModel& model = models[static_cast<std::size_t>(p.body)];
     const bool moves = !model.kinematic && !p.stays;
-    in.bodies.push_back({!moves, p.stays, moves ? model.inverse_mass : 0, p.before.q.toRotationMatrix(),
+    const bool stands = p.stays && p.before.v.isZero(0) && p.before.L.isZero(0);
+    in.bodies.push_back({!moves, stands, moves ? model.inverse_mass : 0, p.before.q.toRotationMatrix(),
                          model.inverse_inertia.asDiagonal(), p.before.x, p.before.v, p.before.L});
   }
   for (const Contact& c : event.contacts)

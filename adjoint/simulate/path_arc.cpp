@@ -23,6 +23,12 @@ PathArc makeConstrainedArc(const Motion& motion, const ContactChoice& choice, do
   return made;
 }
 
+Arc rideArc(const Motion& motion, int body, const State& state, const Carrier& carrier, bool loose) {
+  auto path = std::make_shared<RidePath>(carrier, loose);
+  const State start = path->carried(*motion.modelOf(body), state, carrier.start);
+  return Arc(motion.modelOf(body), motion.plan.bodies[asIndex(body)].tier, std::move(path), carrier.start, start);
+}
+
 PathTransition constrainedTransition(const Arc& arc, double start) {
   const TrajectoryEnd end = arc.trajectory().end();
   if (end.cause == TransitionCause::none) return {};

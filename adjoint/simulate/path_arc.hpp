@@ -2,6 +2,7 @@
 #pragma once
 
 #include "adjoint/constrained/constrained_guards.hpp"
+#include "adjoint/constrained/ride_path.hpp"
 #include "adjoint/simulate/path_transition.hpp"
 
 namespace carom::adjoint_detail {
@@ -15,6 +16,8 @@ struct PathArc {
 PathArc makePathArc(const Motion& motion, const ContactChoice& choice, double time);
 /// The same of contacts that hold it, up to the first of these guards.
 PathArc makeConstrainedArc(const Motion& motion, const ContactChoice& choice, double time, std::vector<ConstrainedGuard> guards);
+/// Rest on a carrier, from its start on, in the pose of a state.
+Arc rideArc(const Motion& motion, int body, const State& state, const Carrier& carrier, bool loose);
 /// How an integrated path goes on, as far as that is known.
 PathTransition constrainedTransition(const Arc& arc, double start);
 

@@ -78,6 +78,10 @@ bool Simulator::follow() {
       continue;
     }
     if (invalidatesReuse(next.a) || invalidatesReuse(next.b)) return false;
+    if (next.isTransition() && arcOf(next.a).trajectory().ride()) {
+      if (endsRide(next.a)) return false;
+      continue;
+    }
     if (next.isTransition()) {
       resolveTransition(next.a);
     } else {

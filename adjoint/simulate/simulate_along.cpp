@@ -243,7 +243,7 @@ class Follower {
     std::ranges::copy_if(event_.contacts, std::back_inserter(closed), &Contact::lasts);
     for (std::size_t i = 0; i < after.size(); ++i)
       if (const Participant& p = event_.participants[i]; !p.stays && isMoved(p.body)) members.push_back({p.body, after[i]});
-    closeGaps(motion_, members, closed);
+    closeGaps(motion_, members, closed, event_.time);
     for (const SupportedComponent::Member& m : members) after[static_cast<std::size_t>(event_.find(m.body) - event_.participants.data())] = m.state;
   }
 
@@ -261,6 +261,7 @@ class Follower {
         held.contacts.push_back(c);
         held.contacts.back().pair = builder_.pairOf(c.a, c.b);
       }
+    if (const RidePath* ride = like.trajectory().ride()) return rideArc(motion_, p.body, start, ride->carrier().from(motion_, event_.time), ride->isLoose());
     if (std::ranges::any_of(held.contacts, [&](const Contact& c) { return liesOnAnother(c); }))
       return makePathArc(motion_, restPathOf(motion_, p.body, start, pointersTo(held.contacts), like.closedForm()->loose, event_.time),
                          event_.time).arc;

@@ -92,16 +92,24 @@ class Simulator {
     std::size_t steps = 0;  // of an integrated path: of those the above is
   };
   static const BodyContactState kInFlight;
+  // Rest on a carrier, for as long as that holds what it carries, or they are on it.
+  struct Ride {
+    Carrier carrier;
+    double until = 0;  // s
+    bool leaves = false;  // the end of a belt
+  };
   // Of a component at rest, what one of its bodies is held by, and with what state.
   struct RestingMember {
     State state;
     std::vector<Contact> held;
     bool opposed = false;  // every motion of the component slips or opens a contact that bears a load
+    std::optional<Ride> ride;
   };
   struct RestingComponent {
     std::vector<SupportedComponent::Member> members;
     std::vector<Contact> on;
     bool opposed = false;
+    std::optional<Ride> ride;
   };
   // An event that is worked out but not yet part of the motion. Its storage is used again and again.
   struct Draft {
@@ -157,7 +165,7 @@ class Simulator {
   void setSpeedsOfContact();
   PairScale scaleOf(int a, int b, double time) { return scales_.of(a, b, pathOf(a), pathOf(b), time); }
   void solveLaw();
-  const State& stateAfter(int body) const;
+  State stateAfter(int body) const;
   double accelerationOf(const Contact& contact) const;
   bool leavesFast() const;
   bool captureLow(const std::vector<std::size_t>& loose, std::vector<std::size_t>& kept);
@@ -186,6 +194,7 @@ class Simulator {
   bool isSupport(int body) const;
   std::vector<int> supportsAround(int body) const;
   std::vector<Contact> heldOf(const std::vector<int>& supports) const;
+  ContactPoint contactNow(const Contact& contact) const;
   bool wakesStruck();
   bool wakesUnheld();
   void keep(std::size_t participant);
@@ -201,6 +210,9 @@ class Simulator {
   void chooseRest(const std::vector<int>& touching, const std::vector<Contact>& closed);
   void holdAtRest(RestingComponent& rest);
   void rest(std::size_t participant);
+  std::optional<Ride> rideOf(const SupportedComponent& component, const std::vector<const Contact*>& on) const;
+  bool endsRide(int body);
+  bool goTogether(int a, int b);
   std::optional<FreeAcceleration> componentAcceleration(int body) const;
   std::vector<std::pair<std::vector<int>, std::vector<Contact>>> placedParts(const std::vector<PlacedContact>& placed);
 

@@ -54,9 +54,12 @@ void Simulator::solveLaw() {
   if (event.contacts[0].captured) event.settles_at = settlesAt(motion_, event, draft_.after);
 }
 
-const State& Simulator::stateAfter(int body) const {
+State Simulator::stateAfter(int body) const {
   const Participant* p = draft_.event.find(body);
-  if (!p) return motion_.world_lines[index(body)].arcs.back().startState();
+  if (!p) return [&] {
+    const Arc& arc = motion_.world_lines[index(body)].arcs.back();
+    return arc.trajectory().ride() || drivesContacts(motion_, body) ? arc.stateAt(draft_.event.time) : arc.startState();
+  }();
   return draft_.after[static_cast<std::size_t>(p - draft_.event.participants.data())];
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "adjoint/motion/guard.hpp"
 #include "adjoint/numeric/union_find.hpp"
 #include "adjoint/simulate/path_arc.hpp"
 #include "adjoint/simulate/simulator.hpp"
@@ -63,14 +64,21 @@ std::vector<Contact> Simulator::heldOf(const std::vector<int>& supports) const {
       if (isMoved(other) && !isSupport(other)) continue;
       if (other < body && has(supports, other)) continue;  // it is listed once
       held.push_back(c);
+      if (arc_[index(body)]->trajectory().ride()) held.back().at = contactNow(c);
     }
   return held;
+}
+
+// A contact of what rests, as it is at the event.
+ContactPoint Simulator::contactNow(const Contact& c) const {
+  const auto pose = [&](int body) { return shapePose(motion_, body, stateAfter(body)); };
+  return motion_.geometry->contact(c.a, c.b, c.features, pose(c.a), pose(c.b));
 }
 
 SupportedComponent Simulator::componentOf(const std::vector<int>& bodies, const std::vector<Contact>& closed) const {
   std::vector<Member> members;
   for (int body : bodies) members.push_back({body, stateAfter(body)});
-  return {motion_, std::move(members), pointersTo(closed)};
+  return {motion_, std::move(members), pointersTo(closed), draft_.event.time};
 }
 
 // Whether an impulse is more than friction and what lies around can take: then what is struck is moved.
@@ -121,7 +129,7 @@ std::vector<int> Simulator::movedBodies(bool with_supports) const {
 // Contacts of these bodies that last, with each other and with what stays: those of the event, and those of supports before it.
 std::vector<Contact> Simulator::lasting(const std::vector<int>& bodies) const {
   std::vector<Contact> closed;
-  const auto stands = [&](int body) { return isStill(body) || has(bodies, body) || isSupport(body); };
+  const auto stands = [&](int body) { return !isMoved(body) || has(bodies, body) || isSupport(body); };
   for (const Contact& c : draft_.event.contacts) {
     if (!c.lasts || !isOf(bodies, c) || !stands(c.a) || !stands(c.b)) continue;
     closed.push_back(c);
@@ -143,7 +151,7 @@ std::vector<std::vector<int>> Simulator::pressedParts(const std::vector<int>& bo
 bool Simulator::standsStill(const SupportedComponent& component, bool opposed, double no_slip) const {
   for (std::size_t i = 0; i < component.members().size(); ++i) {
     const double reach = component.reachOf(i), least = leastSlip(scene_.gravity.norm(), reach);
-    const double fastest = std::max(component.members()[i].state.v.norm(), reach * component.spinOf(i).norm());
+    const double fastest = std::max(component.speedOf(i), reach * component.spinOf(i));
     if (!(fastest <= least || (opposed && fastest <= no_slip))) return false;
   }
   return true;
@@ -156,7 +164,11 @@ std::optional<Simulator::RestingComponent> Simulator::restOf(const std::vector<i
   if (!standsStill(component, true, no_slip)) return std::nullopt;
   const SupportedComponent::Rest rest = component.restOn(on_all ? pointersTo(closed) : component.pressed());
   if (!rest.holds || !standsStill(component, rest.opposed, no_slip)) return std::nullopt;
-  RestingComponent found{component.members(), {}, rest.opposed};
+  RestingComponent found{component.members(), {}, rest.opposed, std::nullopt};
+  if (component.carried().by) {
+    found.ride = rideOf(component, on_all ? rest.bearing : component.pressed());
+    if (!found.ride) return std::nullopt;
+  }
   for (const Contact* c : on_all ? rest.bearing : component.pressed()) found.on.push_back(*c);
   return found;
 }
@@ -178,7 +190,8 @@ void Simulator::chooseComponents() {
   draft_.pressing.clear();
   draft_.unheld.clear();
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (event.participants[i].stays) draft_.contact_state[i].held = heldOf({bodies_[i]});
+    if (event.participants[i].stays)
+      draft_.contact_state[i].held = heldOf({bodies_[i]}), draft_.contact_state[i].transition = contact_states_[index(bodies_[i])].transition;
   const auto joins = [&](const Contact& c) { return c.lasts && joinsMoved(c); };
   if (draft_.woken.empty() && std::ranges::none_of(event.contacts, joins)) return;  // far most often
   const std::vector<int> bodies = movedBodies(true);
@@ -215,20 +228,34 @@ void Simulator::holdAtRest(RestingComponent& rest) {
   std::vector<Contact> on;
   std::ranges::copy_if(rest.on, std::back_inserter(on), [&](const Contact& c) { return comesToRest(c.a) || comesToRest(c.b); });
   std::erase_if(rest.members, [&](const Member& m) { return isSupport(m.body); });
-  if (std::ranges::any_of(on, [](const Contact& c) { return !c.held; })) closeGaps(motion_, rest.members, on);
+  if (std::ranges::any_of(on, [](const Contact& c) { return !c.held; })) closeGaps(motion_, rest.members, on, draft_.event.time);
   const auto participantOf = [&](int body) { return static_cast<std::size_t>(std::ranges::find(bodies_, body) - bodies_.begin()); };
   for (const Member& m : rest.members) {
-    RestingMember& member = draft_.resting[participantOf(m.body)].emplace(RestingMember{m.state, {}, rest.opposed});
+    RestingMember& member = draft_.resting[participantOf(m.body)].emplace(RestingMember{m.state, {}, rest.opposed, rest.ride});
     std::ranges::copy_if(on, std::back_inserter(member.held), [&](const Contact& c) { return c.a == m.body || c.b == m.body; });
   }
   for (const Contact& c : on)
     for (int body : {c.a, c.b})
-      if (isMoved(body) && isSupport(body)) draft_.contact_state[participantOf(body)].held.push_back(c);
+      if (isMoved(body) && isSupport(body)) {
+        BodyContactState& state = draft_.contact_state[participantOf(body)];
+        state.held.push_back(c);
+        if (rest.ride) state.transition = rest.ride->until;
+      }
 }
 
 void Simulator::rest(std::size_t participant) {
   RestingMember& member = *draft_.resting[participant];
   const int body = bodies_[participant];
+  if (member.ride) {
+    Arc arc = rideArc(motion_, body, member.state, member.ride->carrier, !member.opposed);
+    draft_.after[participant] = arc.startState();
+    draft_.contact_state[participant].held = std::move(member.held);
+    draft_.contact_state[participant].transition = member.ride->until;
+    draft_.arcs.push_back(std::move(arc));
+    in_draft_[index(body)] = static_cast<int>(participant);
+    any_lasted_ = true;
+    return;
+  }
   const ContactChoice choice = restPathOf(motion_, body, member.state, pointersTo(member.held), !member.opposed, draft_.event.time);
   PathArc made = makePathArc(motion_, choice, draft_.event.time);
   draft_.after[participant] = choice.start;
@@ -247,7 +274,11 @@ void Simulator::keep(std::size_t participant) {
 
 // d^2/dt^2 of bodies that lie on each other, as after the event: none of those that do not.
 std::optional<FreeAcceleration> Simulator::componentAcceleration(int body) const {
-  if (const Participant* p = draft_.event.find(body); p && p->stays) return FreeAcceleration();
+  if (const Participant* p = draft_.event.find(body); p && p->stays) {
+    FreeAcceleration held;
+    if (const RidePath* ride = arc_[index(body)]->trajectory().ride()) held.v = ride->carrier().at(draft_.event.time).accelerationAt(p->before.x);
+    return held;
+  }
   const auto joins = [&](const Contact& c) { return c.lasts && joinsMoved(c); };
   if (std::ranges::none_of(draft_.event.contacts, joins)) return std::nullopt;
   const std::vector<int> bodies = movedBodies(false);
@@ -256,10 +287,10 @@ std::optional<FreeAcceleration> Simulator::componentAcceleration(int body) const
     std::vector<Contact> closed;
     std::ranges::copy_if(all, std::back_inserter(closed), [&](const Contact& c) { return isOf(touching, c); });
     if (!has(touching, body) || std::ranges::none_of(closed, joins)) continue;
-    if (restOf(touching, closed, 0)) return FreeAcceleration();
     const SupportedComponent component = componentOf(touching, closed);
-    const auto at = std::ranges::find(component.members(), body, &Member::body) - component.members().begin();
-    return component.pressedAccelerations()[static_cast<std::size_t>(at)];
+    const auto at = static_cast<std::size_t>(std::ranges::find(component.members(), body, &Member::body) - component.members().begin());
+    if (restOf(touching, closed, 0)) return component.heldAcceleration(at);
+    return component.pressedAccelerations()[at];
   }
   return std::nullopt;
 }
@@ -285,7 +316,7 @@ std::vector<std::pair<std::vector<int>, std::vector<Contact>>> Simulator::placed
   std::ranges::sort(bodies);
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   for (const PlacedContact& p : placed)
-    if (isFixed(p.a) != isFixed(p.b) && has(bodies, isFixed(p.a) ? p.b : p.a) && !overlapOf(p.a, p.b)) close(p);
+    if (isMoved(p.a) != isMoved(p.b) && has(bodies, isMoved(p.a) ? p.a : p.b) && !overlapOf(p.a, p.b)) close(p);
   for (const std::vector<int>& all : connectedBy(bodies, pointersTo(touching))) {
     const std::vector<Contact> closed = within(all, touching);
     std::vector<std::vector<int>> pressed = pressedParts(all, closed);

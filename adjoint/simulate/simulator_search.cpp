@@ -91,8 +91,7 @@ std::optional<PredictedImpact> Simulator::firstImpact(int a, int b, double from,
   const std::size_t before = workIn(arc_a) + workIn(arc_b);
   std::optional<PredictedImpact> impact;
   if (arc_a.inContact() || arc_b.inContact()) {
-    const auto stays = [](const Arc& arc) { return arc.stays() || arc.kind() == ArcKind::rest; };
-    if (stays(arc_a) && stays(arc_b)) return std::nullopt;
+    if (goTogether(a, b)) return std::nullopt;
     impact = besideConstrained(a, b, from, until);
   } else {
     impact = contacts_.firstImpact(a, b, arc_a, arc_b, from, until);

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 #include "adjoint/impact/complementarity.hpp"
 #include "adjoint/motion/guard.hpp"
+#include "adjoint/numeric/elementary.hpp"
 #include "adjoint/numeric/so3.hpp"
 
 namespace carom::adjoint_detail {
@@ -22,6 +25,11 @@ constexpr double kLeftAtRest = 1e-9, kLeftInRounding = 1e-13;
 constexpr double kLackingRoom = 1e-9;
 // What bears less than this share of the weights bears nothing.
 constexpr double kBears = 1e-9;
+// Gravity along the axis of a carrier but for this share is along it.
+constexpr double kParallel = 1e-15;
+// The angle at which a carrier no longer holds what it carries is known to this, rad; a turn is looked at in so many parts.
+constexpr double kAngleKnown = 1e-12;
+constexpr int kParts = 8;
 
 // Contacts along their normals: rows of the bodies' velocities, and how an impulse of 1 along each moves the bodies.
 struct NormalRows {
@@ -48,8 +56,13 @@ struct NormalRows {
 
 }  // namespace
 
-SupportedComponent::SupportedComponent(const Motion& motion, std::vector<Member> members, std::vector<const Contact*> closed)
-    : motion_(motion), members_(std::move(members)), closed_(std::move(closed)), reach_(members_.size(), 0), presses_(closed_.size(), 0) {
+SupportedComponent::SupportedComponent(const Motion& motion, std::vector<Member> members, std::vector<const Contact*> closed, double time)
+    : motion_(motion), time_(time), members_(std::move(members)), closed_(std::move(closed)), reach_(members_.size(), 0),
+      presses_(closed_.size(), 0) {
+  std::vector<const Contact*> outer;
+  std::ranges::copy_if(closed_, std::back_inserter(outer), [&](const Contact* c) { return memberOf(c->a) < 0 || memberOf(c->b) < 0; });
+  carried_ = carriedBy(motion, outer, time);
+  if (carried_.by) frame_ = carried_.by->at(time);
   for (const Member& m : members_) free_.push_back(freeAcceleration((*motion.models)[asIndex(m.body)], m.state, motion.scene->gravity));
   pressed_ = free_;
   for (const Contact* c : closed_)
@@ -91,13 +104,24 @@ int SupportedComponent::memberOf(int body) const {
 
 ContactSide SupportedComponent::sideOf(int body, const std::vector<FreeAcceleration>& accelerations) const {
   const int i = memberOf(body);
-  if (i < 0) return {motion_.world_lines[asIndex(body)].arcs.back().startState(), std::nullopt};
+  if (i < 0) return givenSide(motion_, body, time_);
   return {members_[asIndex(i)].state, accelerations[asIndex(i)]};
 }
 
-Vec3 SupportedComponent::spinOf(std::size_t member) const {
+double SupportedComponent::speedOf(std::size_t member) const {
+  const State& state = members_[member].state;
+  return (state.v - frame_.velocityAt(state.x)).norm();
+}
+
+double SupportedComponent::spinOf(std::size_t member) const {
   const Member& m = members_[member];
-  return (*motion_.models)[asIndex(m.body)].inverseInertiaWorld(m.state.q.toRotationMatrix()) * m.state.L;
+  return ((*motion_.models)[asIndex(m.body)].inverseInertiaWorld(m.state.q.toRotationMatrix()) * m.state.L - frame_.w).norm();
+}
+
+FreeAcceleration SupportedComponent::heldAcceleration(std::size_t member) const {
+  FreeAcceleration held;
+  if (carried_.by) held.v = frame_.accelerationAt(members_[member].state.x);
+  return held;
 }
 
 std::vector<const Contact*> SupportedComponent::pressed() const {
@@ -122,23 +146,44 @@ RestProgram SupportedComponent::programOf(const std::vector<const Contact*>& con
   return program;
 }
 
-SupportedComponent::Rest SupportedComponent::restOn(const std::vector<const Contact*>& contacts) const {
+// With what the bodies are pressed by where their carrier turns: m (g - a) and the moment -W x J W.
+RestProgram SupportedComponent::loadedProgram(const std::vector<const Contact*>& contacts, const Vec3& gravity) const {
   RestProgram program = programOf(contacts);
-  double pull = 0;
+  const double pull = pullOf(gravity);
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const BodyModel& model = (*motion_.models)[asIndex(members_[i].body)];
-    const Vec3 gravity = model.gravity_factor * motion_.scene->gravity;
-    program.load.segment<3>(6 * static_cast<Index>(i)) = model.mass * gravity;
-    pull = std::max(pull, gravity.norm());
+    const auto at = 6 * static_cast<Index>(i);
+    program.load.segment<3>(at) = model.mass * (model.gravity_factor * gravity);
+    if (frame_.w.isZero(0)) continue;
+    const Mat3 R = members_[i].state.q.toRotationMatrix();
+    const Vec3 momentum = R * model.inertia.cwiseProduct(R.transpose() * frame_.w);
+    program.load.segment<3>(at) -= model.mass * frame_.accelerationAt(members_[i].state.x);
+    program.load.segment<3>(at + 3) = -frame_.w.cross(momentum) / reach_[i];
   }
   for (RestProgram::Contact& at : program.contacts) {
     at.unit = std::numeric_limits<double>::infinity();
     for (const int i : {at.a, at.b})
       if (i >= 0) at.unit = std::min(at.unit, program.mass[asIndex(i)] * pull);
   }
-  const RestForces forces = restForces(program);
+  return program;
+}
+
+double SupportedComponent::pullOf(const Vec3& gravity) const {
+  double pull = 0;
+  for (const Member& m : members_) pull = std::max(pull, ((*motion_.models)[asIndex(m.body)].gravity_factor * gravity).norm());
+  return pull;
+}
+
+bool SupportedComponent::holds(const RestForces& forces) const {
+  return forces.room >= -kLackingRoom && forces.unbalanced <= kLeftAtRest * pullOf(motion_.scene->gravity);
+}
+
+SupportedComponent::Rest SupportedComponent::restOn(const std::vector<const Contact*>& contacts) const {
   Rest rest;
-  rest.holds = forces.room >= -kLackingRoom && forces.unbalanced <= kLeftAtRest * pull;
+  if (!carried_.alike) return rest;
+  const RestProgram program = loadedProgram(contacts, motion_.scene->gravity);
+  const RestForces forces = restForces(program);
+  rest.holds = holds(forces);
   if (!rest.holds) return rest;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -148,6 +193,32 @@ SupportedComponent::Rest SupportedComponent::restOn(const std::vector<const Cont
   }
   rest.opposed = opposesEveryMotion(program, forces.force, least);
   return rest;
+}
+
+// In the frame of the carrier gravity goes round W. What forces within the cones undo is convex: between two angles all of it is
+// undone where that of both is, and that of where the tangents there meet.
+double SupportedComponent::heldUntil(const std::vector<const Contact*>& contacts, double until) const {
+  const Vec3 &g = motion_.scene->gravity, &w = frame_.w;
+  const double rate = w.norm();
+  if (!carried_.by || !(w.cross(g).norm() > kParallel * rate * g.norm())) return until;
+  const Vec3 axis = w / rate, level = axis * axis.dot(g);
+  const auto isHeldAt = [&](double angle, double further) {
+    const Vec3 turned = level + further * (expSO3(-angle * axis) * Vec3(g - level));
+    return holds(restForces(loadedProgram(contacts, turned)));
+  };
+  // from an angle at which they are held
+  const auto fails = [&](const auto& self, double from, double to) -> std::optional<double> {
+    const bool held = isHeldAt(to, 1);
+    if (held && isHeldAt(0.5 * (from + to), 1 / elementary::cos(0.5 * (to - from)))) return std::nullopt;
+    if (to - from <= kAngleKnown) return held ? std::nullopt : std::optional(to);
+    const double middle = 0.5 * (from + to);
+    if (const auto first = self(self, from, middle)) return first;
+    return self(self, middle, to);
+  };
+  const double turn = 2 * std::numbers::pi, all = std::min(turn, rate * (until - time_));
+  for (int k = 0; k < kParts; ++k)
+    if (const auto angle = fails(fails, all * k / kParts, all * (k + 1) / kParts)) return time_ + *angle / rate;
+  return until;
 }
 
 bool SupportedComponent::holdImpulses(const std::vector<const Contact*>& contacts, const std::vector<const Contact*>& struck,
@@ -170,7 +241,7 @@ bool SupportedComponent::holdImpulses(const std::vector<const Contact*>& contact
   return impulses.room >= -kLackingRoom && impulses.unbalanced <= slow;
 }
 
-void closeGaps(const Motion& motion, std::vector<Member>& members, std::vector<Contact>& closed) {
+void closeGaps(const Motion& motion, std::vector<Member>& members, std::vector<Contact>& closed, double time) {
   std::vector<const Contact*> contacts;
   for (const Contact& c : closed) contacts.push_back(&c);
   const NormalRows along(motion, members, contacts);
@@ -186,7 +257,7 @@ void closeGaps(const Motion& motion, std::vector<Member>& members, std::vector<C
   for (Contact& c : closed) {
     const auto pose = [&](int b) {
       const auto own = std::ranges::find(members, b, &Member::body);
-      return shapePose(motion, b, own != members.end() ? own->state : motion.world_lines[asIndex(b)].arcs.back().startState());
+      return shapePose(motion, b, own != members.end() ? own->state : givenSide(motion, b, time).state);
     };
     c.at = motion.geometry->contact(c.a, c.b, c.features, pose(c.a), pose(c.b));
   }

@@ -144,6 +144,39 @@ double unheld(const Pile& pile, const std::vector<Corner>& corners, double scale
   return leastLeft(A, b);
 }
 
+// All of it on a lift, up, down and to the side.
+Scene onALift(Scene scene, const Vec3& V) {
+  for (Body& body : scene.bodies) {
+    if (body.fixed) body.fixed = false, body.kinematic = true, body.mass.reset();
+    body.velocity = V;
+  }
+  return scene;
+}
+
+TEST(Piles, RestOnALiftWhereTheyRestOnTheGround) {
+  int rests = 0, falls = 0;
+  for (std::uint64_t seed = 1001; seed <= 1000 + static_cast<std::uint64_t>(scaled(100)); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Pile pile = randomPile(seed);
+    const Vec3 V = Random(seed).vec(2);
+    const Motion still = playLasting(pile.scene, 1), carried = playLasting(onALift(pile.scene, V), 1);
+    const auto goesAt = [&](const Motion& m, const Vec3& velocity) {  // all of it, without another event
+      for (std::size_t b = 0; b < pile.scene.bodies.size(); ++b) {
+        if (m.status != MotionStatus::complete || m.world_lines[b].arcs.size() > 2) return false;
+        const auto body = static_cast<int>(b);
+        if ((m.stateAt(body, 1).position - m.stateAt(body, 0).position - velocity).norm() > 1e-13) return false;
+      }
+      return true;
+    };
+    const bool rest = goesAt(still, Vec3::Zero());
+    EXPECT_EQ(goesAt(carried, V), rest) << still.message << "; " << carried.message;
+    ++(rest ? rests : falls);
+  }
+  std::printf("%d rest, %d do not\n", rests, falls);
+  EXPECT_GT(rests, scaled(20));
+  EXPECT_GT(falls, scaled(10));
+}
+
 TEST(Piles, RestExactlyWhereForcesHoldThem) {
   int rests = 0, falls = 0, undecided = 0, largest = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(scaled(300)); ++seed) {
