@@ -58,11 +58,14 @@ assert carom.adjoint(motion, seed).reliability.reliable
 result = carom.Edit.of(scene).solve()
 assert result.solved, result
 print(result)
-# An equation out of reach is left to Ipopt, whatever came before.
-hard = carom.Edit(scene)
-hard.vary(carom.velocity("ball", min=-1, max=1))
-hard.nail("ball", motion.end).position(100, None, None)
-assert not hard.solve(effort="fast").solved
+# An objective of one's own is left to Ipopt.
+def height(motion):
+    return carom.Reading(motion.state_at("ball", 0.2).position[2], [carom.Seed("ball", 0.2, position=(0, 0, 1))])
+own = carom.Edit(scene)
+own.vary(carom.velocity("ball"))
+own.nail("ball", 0.3).position(motion.state_at("ball", 0.3).position[0] + 0.1, None, None)
+own.minimise("height", height, change_weight=1, until=0.3)
+assert own.solve(effort="fast").solved
 from carom import _carom
 print("handler:", bool(_carom.xla_handler()))
 for line in sorted({line.split()[-1] for line in open("/proc/self/maps") if ".so" in line}):
