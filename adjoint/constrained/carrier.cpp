@@ -9,11 +9,11 @@ namespace {
 // Velocities of a belt at several contacts that differ by less than this share are one.
 constexpr double kSameVelocity = 1e-12;
 // A place that goes with a body but for this share does.
-constexpr double kGoesWith = 1e-12;
+constexpr double kGoesAlong = 1e-12;
 
-const Body& writtenOf(const Motion& motion, int body) { return motion.scene->bodies[static_cast<std::size_t>(body)]; }
+const Body& bodyOf(const Motion& motion, int body) { return motion.scene->bodies[static_cast<std::size_t>(body)]; }
 
-Vec3 along(const Vec3& n, const Vec3& v) { return v - n * n.dot(v); }
+Vec3 alongFaceOf(const Vec3& n, const Vec3& v) { return v - n * n.dot(v); }
 
 // Whether a contact lies on the face of a support, whatever the body on it does, and its place goes with that body.
 bool liesOnFaceOf(const Motion& motion, const Contact& c, int support, double time) {
@@ -24,7 +24,7 @@ bool liesOnFaceOf(const Motion& motion, const Contact& c, int support, double ti
   const ContactJacobian J = motion.geometry->jacobian(c.a, c.b, c.features, pose(c.a), pose(c.b));
   const Eigen::Index own = support == c.a ? 6 : 0;
   const Mat3 across = Mat3::Identity() - c.at.normal * c.at.normal.transpose();
-  return J.pose.block<3, 6>(1, own).isZero(0) && (across * J.pose.block<3, 3>(4, own) - across).norm() <= kGoesWith;
+  return J.pose.block<3, 6>(1, own).isZero(0) && (across * J.pose.block<3, 3>(4, own) - across).norm() <= kGoesAlong;
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ bool liesOnFaceOf(const Motion& motion, const Contact& c, int support, double ti
 Carrier::Instant Carrier::at(double t) const {
   Instant now;
   if (isBelt()) {
-    now.v = along(normal, Vec3(support.pose.R * support.surface_velocity));
+    now.v = alongFaceOf(normal, Vec3(support.pose.R * support.surface_velocity));
     now.x = (t - start) * now.v;
     return now;
   }
@@ -46,7 +46,7 @@ Carrier::Derivative Carrier::tangent(const Motion& motion, const SceneTangent& d
   const BodyDerivative& d = dscene.bodies[static_cast<std::size_t>(body)];
   Derivative out;
   if (isBelt()) {  // its normal turns with the body
-    out.v = d.orientation.cross(at(start).v) + along(normal, Vec3(support.pose.R * d.surface_velocity));
+    out.v = d.orientation.cross(at(start).v) + alongFaceOf(normal, Vec3(support.pose.R * d.surface_velocity));
     return out;
   }
   const StateDerivative of = fromSceneStart(motion, body, support, start).tangent(d);
@@ -58,7 +58,7 @@ void Carrier::pullback(const Motion& motion, const Derivative& bar, SceneGradien
   BodyDerivative& d = scene_bar.bodies[static_cast<std::size_t>(body)];
   if (isBelt()) {
     d.orientation += at(start).v.cross(bar.v);
-    d.surface_velocity += support.pose.R.transpose() * along(normal, bar.v);
+    d.surface_velocity += support.pose.R.transpose() * alongFaceOf(normal, bar.v);
     return;
   }
   StateDerivative of;
@@ -70,7 +70,7 @@ Carried carriedBy(const Motion& motion, const std::vector<const Contact*>& outer
   Carried carried;
   bool stands = false;
   for (const Contact* c : outer) {
-    const auto isMoved = [&](int body) { return !writtenOf(motion, body).immovable(); };
+    const auto isMoved = [&](int body) { return !bodyOf(motion, body).immovable(); };
     const int body = isMoved(c->a) ? c->b : c->a;
     if (!drivesContacts(motion, body)) {
       stands = true;

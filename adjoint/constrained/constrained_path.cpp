@@ -8,15 +8,13 @@
 #include "adjoint/base/refuse.hpp"
 #include "adjoint/constrained/constrained_dynamics.hpp"
 #include "adjoint/constrained/constrained_start.hpp"
+#include "adjoint/constrained/path_limits.hpp"
 #include "adjoint/numeric/decompositions.hpp"
 #include "adjoint/numeric/elementary.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
 
-// A slip that ends goes straight from this share of the unit of speed on, if what is left of it across is rounding, or from
-// the lesser one.
-constexpr double kStraight = 1e-8, kStraightAnyway = 1e-11;
 // The direction of a slip slower than this is better known by the nodes of the step.
 constexpr double kNoDirection = 1e-7;
 // Its direction at its end is found in so many rounds, if it is not further than this from that at a node, rad.
@@ -24,36 +22,14 @@ constexpr int kAlignRounds = 3;
 constexpr double kMostAlign = 0.01;
 // What turns of directions do less to accelerations than this share decides nothing.
 constexpr double kDecides = 1e-9;
-// A slip goes straight where it changes across its direction by no more than this share.
-constexpr double kTurns = 1e-4;
-// The first step turns the body by about so much, rad, and steps are never longer than this share of the first guess.
-constexpr double kFirstTurn = 0.3;
-// See lengthBeforeEnd.
-constexpr double kLeftOutOfSlip = 3e-13;
-// One that is nearer than this share of a step to its start, and cannot be come to by a step, is there at once.
-constexpr double kAtOnceOfStep = 1e-6;
-constexpr int kTries = 200;
 // Of the unit of speed: slower than that is what rounding leaves of speeds that an impact law stops.
 constexpr double kStopped = 1e-14;
 // Most steps of a path, and of one whose rims go round.
-constexpr std::size_t kMostSteps = 20'000, kMostOfRims = 100'000;
+constexpr std::size_t kMostOfRims = 100'000;
 // What a step leaves of speeds that contacts keep at 0 is less than this share of the unit of speed.
 constexpr double kMostTakenBack = 1e-10;
 // A rim that comes to lie flat before so many steps have passed is brought there by the next one.
 constexpr double kLooksForFlat = 1.5;
-
-// By which a step may be longer, or has to be shorter.
-double factorFor(double error) {
-  return std::clamp(0.9 * elementary::pow(std::max(error, 1e-12), -1.0 / 11), 0.2, 2.0);
-}
-
-// How far before its end a slip can be followed in one step, as a share of the time that is left of it: polynomials
-// through the nodes converge like 1/R^12 on the ellipse of axes R + 1/R that reaches to the end, and what they leave out
-// counts by the share that the slip has of the unit of speed.
-double lengthBeforeEnd(double share) {
-  const double R = elementary::pow(share / kLeftOutOfSlip, 1.0 / Gauss::kNodes);
-  return 2.6 / (0.5 * (R + 1 / R) + 1);
-}
 
 }  // namespace
 
@@ -72,7 +48,7 @@ ConstrainedPath::ConstrainedPath(ConstrainedScene scene, std::vector<PersistentC
   findRims();
   const ConstrainedInstant now = instantOf(scene_, contacts_, start, time, slipAfter());
   const double spin = now.body.omega.norm() + std::sqrt(scene_.gravity.norm() / scene_.length);
-  next_length_ = kFirstTurn / spin;
+  next_length_ = PathLimits::kFirstTurn / spin;
   ConstrainedForces forces;
   forces.solve(now, redundant_);
   bounds_.acceleration = forces.acceleration();
@@ -110,10 +86,10 @@ double ConstrainedPath::lookAtSlips(ConstrainedStepper::Start& start) const {
     Vec3 rate = forces.slipRate(k);
     rate -= c.n.dot(rate) * c.n;
     const double along = start.slip[k].dot(rate), across = (rate - along * start.slip[k]).norm();
-    if (share < kStraightAnyway || (share < kStraight && share * across < kLeftOutOfSlip * rate.norm())) {
+    if (share < PathLimits::kStraightAnyway || (share < PathLimits::kStraight && share * across < PathLimits::kLeftOutOfSlip * rate.norm())) {
       start.frozen[k] = along < 0;
-    } else if (across > kTurns * rate.norm()) {
-      longest = std::min(longest, slip / rate.norm() * lengthBeforeEnd(share));
+    } else if (across > PathLimits::kTurns * rate.norm()) {
+      longest = std::min(longest, slip / rate.norm() * PathLimits::lengthBeforeEnd(share));
     }
   }
   return longest;
@@ -122,7 +98,7 @@ double ConstrainedPath::lookAtSlips(ConstrainedStepper::Start& start) const {
 void ConstrainedPath::extend() {
   if (end_ || !(known_ < until_)) return;
   const bool goes_round = std::ranges::any_of(rims_, [](const auto& rim) { return rim.has_value(); });
-  if (steps_.size() >= (goes_round ? kMostOfRims : kMostSteps)) throw NotComputable(tooManySteps());
+  if (steps_.size() >= (goes_round ? kMostOfRims : PathLimits::kMostSteps)) throw NotComputable(tooManySteps());
   take(nextStep());
 }
 
@@ -140,7 +116,7 @@ ConstrainedStep ConstrainedPath::nextStep() {
   }
   const ConstrainedStep* like = steps_.empty() ? nullptr : &steps_.back();
   std::optional<ConstrainedStep> too_long;
-  for (int tries = 0; tries < kTries && known_ + length > known_; ++tries) {
+  for (int tries = 0; tries < PathLimits::kTries && known_ + length > known_; ++tries) {
     std::optional<ConstrainedStep> step = stepper.tried(start, length, like);
     if (!step) {
       length *= 0.4;
@@ -161,7 +137,7 @@ ConstrainedStep ConstrainedPath::nextStep() {
       like = &*too_long;
       continue;
     }
-    next_length_ = factorFor(error) * length;
+    next_length_ = PathLimits::factorFor(error) * length;
     if (!end && passesFlat(*step)) {
       length *= 0.5;
       continue;
@@ -172,7 +148,7 @@ ConstrainedStep ConstrainedPath::nextStep() {
     } else {
       const double left = end->time - known_;
       const bool comes = endAt(stepper, start, *step, *end);
-      if (comes ? passesBy(*step, *end) : left > kAtOnceOfStep * length) {
+      if (comes ? passesBy(*step, *end) : left > PathLimits::kAtOnceOfStep * length) {
         length *= 0.5;
         continue;
       }
@@ -187,7 +163,7 @@ ConstrainedStep ConstrainedPath::nextStep() {
 
 // What lies beyond an end need not be followed.
 double ConstrainedPath::shorterLength(double length, double error, const std::optional<Ending>& end) const {
-  const double shorter = factorFor(error) * length;
+  const double shorter = PathLimits::factorFor(error) * length;
   if (!end || !(end->time > known_) || !(end->time < known_ + 0.95 * length)) return shorter;
   return std::max(end->time - known_, shorter);
 }
@@ -267,7 +243,7 @@ void ConstrainedPath::alignStop(ConstrainedInstant& now) const {
   const std::optional<std::size_t> first = contactThatStops();
   const auto stops = [&](std::size_t k) {
     return contacts_[k].mode == ContactMode::slides && contacts_[k].friction > 0 &&
-           !(now.slipAt(k).norm() > kStraightAnyway * scene_.speed);
+           !(now.slipAt(k).norm() > PathLimits::kStraightAnyway * scene_.speed);
   };
   if (!first || !stops(*first)) return;
   std::vector<std::size_t> turning;

@@ -7,16 +7,12 @@
 
 #include "adjoint/base/refuse.hpp"
 #include "adjoint/constrained/constrained_dynamics.hpp"
+#include "adjoint/constrained/path_limits.hpp"
 #include "adjoint/constrained/constrained_path_values.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
 
-// Guards that fall to 0 nearer to one another than this share of the time do so at once.
-constexpr double kAtOnce = 1e-13;
-// Rounds of a step to its end, and by which share of it the end may still move.
-constexpr int kEndings = 6;
-constexpr double kSameEnd = 1e-15;
 // A rim is flat where its height varies by no more than this, m for bodies of 1 m: separations are known to 1e-13.
 constexpr double kFlat = 2e-13;
 // What is rounding of a tilt.
@@ -28,9 +24,6 @@ constexpr double kNodeNoise = 0.05;
 constexpr int kLandings = 12;
 // How well the time of a least value is known, as a share of it or of the unit of time: values are flat there.
 constexpr double kLeastWithin = 1e-9;
-// What a slip that ends may have across its direction, as a share of the unit of speed: one that goes straight, and one
-// that still turns.
-constexpr double kStraightLeft = 1e-6, kNothingLeft = 1e-11;
 // A contact whose gap answers to its push by less than this share of its answer to the normal alone jams.
 constexpr double kJams = 1e-3;
 
@@ -49,7 +42,7 @@ TrajectoryEnd ConstrainedPath::end() const {
 // there. False: there is no such step.
 bool ConstrainedPath::endAt(ConstrainedStepper& stepper, const ConstrainedStepper::Start& start, ConstrainedStep& step, Ending& end) const {
   const std::size_t which = indexOf(end.guard);
-  for (int round = 0; round < kEndings; ++round) {
+  for (int round = 0; round < PathLimits::kEndings; ++round) {
     const double shorter = end.time - known_;
     if (shorter == step.length) return true;
     std::optional<ConstrainedStep> ending = stepper.tried(start, shorter, &step);
@@ -58,7 +51,7 @@ bool ConstrainedPath::endAt(ConstrainedStepper& stepper, const ConstrainedSteppe
     Values values(*this, step);
     const double h = step.length, value = values.at(known_ + h)[which], earlier = values.at(known_ + 0.999 * h)[which];
     const double move = -value * (0.001 * h) / (value - earlier);
-    if (std::abs(move) <= std::max(kSameEnd * h, 1e-16 * known_)) return true;
+    if (std::abs(move) <= std::max(PathLimits::kSameEnd * h, 1e-16 * known_)) return true;
     const bool is_rounding = std::abs(value) <= guardRounding(guards_[which], scene_);  // of a guard that hardly moves
     if (is_rounding && (round > 0 || !(value < earlier))) return true;
     if (!(std::abs(move) <= 0.5 * h)) return false;
@@ -155,7 +148,7 @@ std::optional<ConstrainedStep> ConstrainedPath::stepToFlat(ConstrainedStepper& s
     const Tilt tilt = tiltOf(ahead.contact, ConstrainedStep::moved(step->from, step->changeAt(step->start + length)));
     const double rate = ahead.axis.dot(tilt.rate), move = -ahead.axis.dot(tilt.x) / rate;
     if (!(rate < 0)) return std::nullopt;
-    if (std::abs(move) <= std::max({kSameEnd * length, 2e-16 * known_, kTiltRounding / -rate})) {
+    if (std::abs(move) <= std::max({PathLimits::kSameEnd * length, 2e-16 * known_, kTiltRounding / -rate})) {
       const double noise = kNodeNoise * scene_.gravity.norm() / (scene_.speed * -rate);
       if (!(stepper.errorOf(*step) <= 1 + noise) || firstEnd(*step, true)) return std::nullopt;
       return step;
@@ -194,7 +187,7 @@ bool ConstrainedPath::passesBy(const ConstrainedStep& step, const Ending& end) c
   const ConstrainedInstant now = instantOf(scene_, contacts_, step.stateAt(step.start + step.length), step.start + step.length,
                                     step.slipAtNode(Gauss::kNodes - 1));
   const auto k = static_cast<std::size_t>(end.guard.contact);
-  return now.slipAt(k).norm() > (step.frozen[k] ? kStraightLeft : kNothingLeft) * scene_.speed;
+  return now.slipAt(k).norm() > (step.frozen[k] ? PathLimits::kStraightLeft : PathLimits::kNothingLeft) * scene_.speed;
 }
 
 // The first guard that falls through 0, looked for at the nodes and at both ends.
@@ -212,7 +205,7 @@ std::optional<ConstrainedPath::Ending> ConstrainedPath::firstEnd(const Constrain
       if (!(now[g] < -guardRounding(guards_[g], scene_)) || !(now[g] < last[g])) continue;
       const double root = last[g] <= 0 ? before : rootOf(values, g, {before, t, last[g], now[g]});
       // what comes at one instant comes in the order of the guards, whatever the rounding
-      if (!first || root < first->time - kAtOnce * std::abs(root)) first = Ending{root, guards_[g]};
+      if (!first || root < first->time - PathLimits::kAtOnce * std::abs(root)) first = Ending{root, guards_[g]};
     }
     if (first) return first;
     before = t, last = now;

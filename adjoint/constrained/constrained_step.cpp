@@ -6,6 +6,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/constrained/constrained_forces.hpp"
+#include "adjoint/constrained/path_limits.hpp"
 #include "adjoint/numeric/decompositions.hpp"
 #include "adjoint/numeric/so3.hpp"
 
@@ -14,19 +15,15 @@ namespace {
 
 constexpr int kNodes = Gauss::kNodes;
 
-// Rounds of one step, and what the slopes may change by in the last, as a share of the scales.
-constexpr int kStageRounds = 40;
-constexpr double kStagesSettled = 2e-15, kStagesStalled = 1e-12;
-// Slopes of places are speeds, which those of speeds settle: of them so many times less is asked.
-constexpr double kOfPlaces = 10;
-// What polynomials may leave out.
-constexpr double kLeftOut = 3e-14;
-// Directions that turn by no more than this, rad, in the last round.
-constexpr double kTurned = 1e-6;
-// How much further than it is long another step is good for a guess.
-constexpr double kGuessed = 1.5;
+ConstrainedVector scaleOf(const ConstrainedScene& scene, double of_x, double of_theta) {
+  ConstrainedVector scale;
+  scale << Vec3::Constant(of_x), Vec3::Constant(of_theta), Vec3::Constant(scene.speed),
+      Vec3::Constant(scene.speed * scene.length * scene.model->mass);
+  return scale;
+}
 
-// d(theta)/dt at angular velocity w.
+}  // namespace
+
 Vec3 rotationRate(const Vec3& theta, const Vec3& w) {
   const double a2 = theta.squaredNorm(), a = std::sqrt(a2);
   double c = (1 + a2 / 60 * (1 + a2 / 42 * (1 + a2 / 40))) / 12;
@@ -37,15 +34,6 @@ Vec3 rotationRate(const Vec3& theta, const Vec3& w) {
   const Vec3 across = theta.cross(w);
   return w - 0.5 * across + c * theta.cross(across);
 }
-
-ConstrainedVector scaleOf(const ConstrainedScene& scene, double of_x, double of_theta) {
-  ConstrainedVector scale;
-  scale << Vec3::Constant(of_x), Vec3::Constant(of_theta), Vec3::Constant(scene.speed),
-      Vec3::Constant(scene.speed * scene.length * scene.model->mass);
-  return scale;
-}
-
-}  // namespace
 
 std::vector<Vec3> ConstrainedStep::slipAtNode(int node) const {
   std::vector<Vec3> at;
@@ -126,7 +114,7 @@ std::optional<ConstrainedStep> ConstrainedStepper::tried(const Start& start, dou
 ConstrainedSlopes ConstrainedStepper::guess(ConstrainedStep& step, const ConstrainedStep* like) {
   Nodes& nodes = *nodes_;
   ConstrainedSlopes F;
-  if (like && step.start + step.length <= like->start + (1 + kGuessed) * like->length) {
+  if (like && step.start + step.length <= like->start + (1 + StepLimits::kGuessed) * like->length) {
     extrapolate(step, *like, F);
     return F;
   }
@@ -232,22 +220,22 @@ double ConstrainedStepper::turnSlips(ConstrainedStep& step, ConstrainedSlopes& n
 
 bool ConstrainedStepper::solve(ConstrainedStep& step, ConstrainedSlopes& F) {
   const ConstrainedVector weight =
-      step.length * scaleOf(scene_, kOfPlaces * scene_.length, kOfPlaces).cwiseInverse();
+      step.length * scaleOf(scene_, StepLimits::kOfPlaces * scene_.length, StepLimits::kOfPlaces).cwiseInverse();
   double moved_before = kInfinity, turned_before = kInfinity;
-  for (int round = 0; round < kStageRounds; ++round) {
+  for (int round = 0; round < StepLimits::kRounds; ++round) {
     const ConstrainedSlopes change = step.length * F * Gauss::get().integral.transpose();
     if (!change.allFinite() || change.middleRows<3>(3).cwiseAbs().maxCoeff() > 2) return false;
     ConstrainedSlopes next = evaluate(step, change);
     double turned = 0;
     if (!nodes_->turning.empty()) {
-      turned = turnSlips(step, next, round < 2 || turned_before > kTurned);
+      turned = turnSlips(step, next, round < 2 || turned_before > StepLimits::kTurned);
       if (!std::isfinite(turned)) return false;
     }
     const double moved = ((next - F).cwiseAbs().array().colwise() * weight.array()).maxCoeff();
     F = next;
     if (!std::isfinite(moved)) return false;
-    if (moved <= kStagesSettled && turned <= kTurned) return true;
-    if (round >= 3 && moved >= 0.5 * moved_before && moved <= kStagesStalled && turned <= kTurned) return true;
+    if (moved <= StepLimits::kSettled && turned <= StepLimits::kTurned) return true;
+    if (round >= 3 && moved >= 0.5 * moved_before && moved <= StepLimits::kStalled && turned <= StepLimits::kTurned) return true;
     if (round >= 12 && moved > 0.9 * moved_before && moved > 1e-3) return false;
     moved_before = moved, turned_before = turned;
   }
@@ -257,7 +245,7 @@ bool ConstrainedStepper::solve(ConstrainedStep& step, ConstrainedSlopes& F) {
 double ConstrainedStepper::errorOf(const ConstrainedStep& step) const {
   const ConstrainedVector last =
       step.slopes.col(kNodes - 1).cwiseAbs().cwiseMax(0.1 * step.slopes.col(kNodes - 2).cwiseAbs());
-  return step.length / (2 * (2 * kNodes - 1)) * last.cwiseQuotient(scaleOf(scene_, scene_.length, 1)).maxCoeff() / kLeftOut;
+  return step.length / (2 * (2 * kNodes - 1)) * last.cwiseQuotient(scaleOf(scene_, scene_.length, 1)).maxCoeff() / StepLimits::kLeftOut;
 }
 
 }  // namespace carom::adjoint_detail

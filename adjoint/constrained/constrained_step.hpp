@@ -15,6 +15,9 @@ namespace carom::adjoint_detail {
 using ConstrainedVector = Eigen::Matrix<double, 12, 1>;
 using ConstrainedSlopes = Eigen::Matrix<double, 12, Gauss::kNodes>;
 
+/// d(theta)/dt of a rotation vector at angular velocity w.
+Vec3 rotationRate(const Vec3& theta, const Vec3& w);
+
 /// A stretch of a path in lasting contact: polynomials in time, of degree 12.
 struct ConstrainedStep {
   double start = 0, length = 0;  ///< s

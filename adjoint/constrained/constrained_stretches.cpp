@@ -12,7 +12,7 @@ namespace {
 
 // Stretches end where a slip has changed by so much of itself. Slower than kNoSlip of the unit of speed it is
 // straight, if its acceleration has no more than kStillTurns of itself across it, and slower than kNoDirectionLeft in any case.
-constexpr double kReach = 0.7, kNoSlip = 1e-8, kStillTurns = 1e-6;
+constexpr double kReachOfStretch = 0.7, kNoSlip = 1e-8, kStillTurns = 1e-6;
 
 // Of what a slip has left at its end, which is rounding: what is no larger across its way there is rounding, too.
 constexpr double kLeftAcross = 4;
@@ -45,7 +45,7 @@ ConstrainedStretch stretchFrom(const ConstrainedPath& path, const SlipEnds& end,
     if (!(slip > (turns ? kNoDirectionLeft : kNoSlip) * path.scene().speed)) {
       out.straight[k] = (stops ? *end : now).contacts[k].slip;
     } else {
-      const double reach = kReach * slip / rate.norm();
+      const double reach = kReachOfStretch * slip / rate.norm();
       if (from + 1.2 * reach < out.until) out.until = from + reach;
     }
   }

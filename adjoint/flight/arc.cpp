@@ -54,7 +54,7 @@ Arc Arc::fork() const {
   return own;
 }
 
-ArcKind Arc::kind() const { return trajectory_->kind(); }
+ArcKind Arc::kind() const { return trajectory_->kindOf(*this); }
 const ContactPath* Arc::closedForm() const { return trajectory_->closedForm(); }
 std::size_t Arc::series() const { return trajectory_->series(); }
 bool Arc::isIntegrated() const { return trajectory_->isIntegrated(); }

@@ -16,6 +16,7 @@ namespace carom::adjoint_detail {
 
 struct ContactPath;
 class ConstrainedPath;
+class GroupPath;
 class RidePath;
 struct PathGuard;
 struct PathStart;
@@ -46,6 +47,8 @@ class Trajectory {
   virtual ~Trajectory() = default;
 
   virtual ArcKind kind() const = 0;
+  /// The same of one of several bodies.
+  virtual ArcKind kindOf(const Arc&) const { return kind(); }
   virtual State stateAt(const Arc& arc, double t) const = 0;
   virtual Vec3 positionAt(const Arc& arc, double t) const = 0;
   virtual Vec3 velocityAt(const Arc& arc, double t) const = 0;
@@ -90,6 +93,8 @@ class Trajectory {
   virtual const ConstrainedPath* constrained() const { return nullptr; }
   /// What carries it where it rests on that with others.
   virtual const RidePath* ride() const { return nullptr; }
+  /// Where it is one of several bodies that move on each other.
+  virtual const GroupPath* group() const { return nullptr; }
   /// Of rest: contacts do not hold the body against every motion.
   virtual bool isLoose() const { return false; }
 };

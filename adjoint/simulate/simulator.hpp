@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/group/group_modes.hpp"
+#include "adjoint/simulate/contact_state.hpp"
 #include "adjoint/simulate/event_queue.hpp"
 #include "adjoint/simulate/reused_bodies.hpp"
 #include "adjoint/simulate/motion_builder.hpp"
@@ -33,8 +35,6 @@ inline constexpr double kFurthest = 1e60;
 inline constexpr long kMostSearches = 5'000'000;
 /// An angle of which a sine has no digit left, rad.
 inline constexpr double kMostTurn = 1e15;
-/// Steps of work that a step along a path in contact without a closed form counts for.
-inline constexpr std::size_t kConstrainedStep = 100;
 /// Steps of work in which a motion that was ended may bring what it knows into order.
 inline constexpr std::size_t kStepsToEnd = 100'000;
 
@@ -84,33 +84,7 @@ class Simulator {
     double horizon = 0;                  // without an impact: searched up to here
     std::vector<PredictedEvent> of_instant;  // further ones within an instant of the first
   };
-  // How a body in lasting contact goes on: where it is held, by bodies that stand still or move as they are given to, and until when.
-  struct BodyContactState {
-    std::vector<Contact> held;
-    double transition = EventQueue::kNever;
-    PathTransition why;
-    std::size_t steps = 0;  // of an integrated path: of those the above is
-  };
   static const BodyContactState kInFlight;
-  // Rest on a carrier, for as long as that holds what it carries, or they are on it.
-  struct Ride {
-    Carrier carrier;
-    double until = 0;  // s
-    bool leaves = false;  // the end of a belt
-  };
-  // Of a component at rest, what one of its bodies is held by, and with what state.
-  struct RestingMember {
-    State state;
-    std::vector<Contact> held;
-    bool opposed = false;  // every motion of the component slips or opens a contact that bears a load
-    std::optional<Ride> ride;
-  };
-  struct RestingComponent {
-    std::vector<SupportedComponent::Member> members;
-    std::vector<Contact> on;
-    bool opposed = false;
-    std::optional<Ride> ride;
-  };
   // An event that is worked out but not yet part of the motion. Its storage is used again and again.
   struct Draft {
     Event event;
@@ -120,6 +94,8 @@ class Simulator {
     std::vector<NextImpact> next_impacts;  // of the participants
     std::vector<BodyContactState> contact_state;     // of the participants; empty where all of them fly
     std::vector<std::optional<RestingMember>> resting;  // of the participants, if they rest with others
+    std::vector<std::optional<GroupMembership>> grouped;  // of the participants, if they move with others
+    std::optional<GroupBeyond> group_beyond;              // of a transition
     std::vector<int> unheld;        // supports that the loads after the event move
     std::vector<Contact> pressing;  // between bodies that do not
     std::vector<int> woken;         // bodies that rested on others, or under them, and do not stay
@@ -216,6 +192,14 @@ class Simulator {
   std::optional<FreeAcceleration> componentAcceleration(int body) const;
   std::vector<std::pair<std::vector<int>, std::vector<Contact>>> placedParts(const std::vector<PlacedContact>& placed);
 
+  // simulator_group.cpp: bodies that move on each other
+  GroupScene groupScene(const std::vector<int>& members, const std::vector<Contact>& closed) const;
+  void joinGroups(const std::vector<int>& touching, const std::vector<Contact>& closed);
+  void beginGroup(const std::vector<int>& members, const std::vector<Contact>& closed, const GroupModes& modes);
+  void followGroup(std::size_t participant);
+  void refreshGroup(int body);
+  void resolveGroupTransition(int body);
+
   // simulator_contact.cpp: persistent contact
   bool contactsLast() const { return motion_.lowest_bounce > 0; }
   void resolveTransition(int body);
@@ -297,7 +281,10 @@ class Simulator {
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   Arc& arcOf(int body) { return *arc_[index(body)]; }
   /// Steps of work that went into what is known of an arc.
-  static std::size_t workIn(const Arc& arc) { return arc.series() * (arc.isIntegrated() ? kConstrainedStep : 1); }
+  static std::size_t workIn(const Arc& arc) {
+    if (const GroupPath* group = arc.trajectory().group()) return arc.series() * group->workOfStep();
+    return arc.series() * (arc.isIntegrated() ? kConstrainedStep : 1);
+  }
   // Whether impacts move a body. They neither join through one that they do not move nor change its path.
   bool isFixed(int body) const { return arc_[index(body)]->stays(); }
   // Whether it never moves, and nor does its surface.
@@ -313,7 +300,7 @@ class Simulator {
   std::size_t impact_limit_, steps_before_;
   std::function<bool(const Motion&)> stop_when_;  // empty once it has said yes
   double least_duration_, last_asked_for_ = EventQueue::kNever;  // nothing after it is asked for
-  bool refuse_overlaps_;
+  bool groups_, refuse_overlaps_;
   WorkCount work_;
   bool work_ended_ = false;
   double now_ = 0;     // everything before it is known

@@ -39,7 +39,7 @@ bool isOf(const std::vector<int>& bodies, const Contact& c) { return has(bodies,
 
 // Whether a body rests on others, or under them, and takes part in the event without being moved.
 bool Simulator::isSupport(int body) const {
-  if (!any_lasted_ || std::ranges::find(draft_.woken, body) != draft_.woken.end()) return false;
+  if (!any_lasted_ || arc_[index(body)]->trajectory().group() || std::ranges::find(draft_.woken, body) != draft_.woken.end()) return false;
   return std::ranges::any_of(contact_states_[index(body)].held, [&](const Contact& c) { return joinsMoved(c); });
 }
 
@@ -158,7 +158,7 @@ bool Simulator::standsStill(const SupportedComponent& component, bool opposed, d
 }
 
 // A component at rest: on what presses without friction, or on all that is closed.
-std::optional<Simulator::RestingComponent> Simulator::restOf(const std::vector<int>& bodies, const std::vector<Contact>& closed,
+std::optional<RestingComponent> Simulator::restOf(const std::vector<int>& bodies, const std::vector<Contact>& closed,
                                                              double no_slip, bool on_all) const {
   const SupportedComponent component = componentOf(bodies, closed);
   if (!standsStill(component, true, no_slip)) return std::nullopt;
@@ -187,6 +187,7 @@ std::vector<Contact> Simulator::within(const std::vector<int>& part, const std::
 void Simulator::chooseComponents() {
   const Event& event = draft_.event;
   draft_.resting.assign(bodies_.size(), {});
+  draft_.grouped.assign(bodies_.size(), {});
   draft_.pressing.clear();
   draft_.unheld.clear();
   for (std::size_t i = 0; i < bodies_.size(); ++i)
@@ -209,6 +210,12 @@ void Simulator::chooseRest(const std::vector<int>& touching, const std::vector<C
   for (const std::vector<int>& part : parts) rests.push_back(restOf(part, within(part, closed), no_slip));
   if (std::ranges::any_of(rests, [](const auto& rest) { return !rest; }))
     if (auto whole = restOf(touching, closed, no_slip, true)) return holdAtRest(*whole);
+  const bool all_rest = std::ranges::all_of(rests, [](const auto& rest) { return rest.has_value(); });
+  if (!all_rest && groups_) {
+    std::ranges::copy_if(touching, std::back_inserter(draft_.unheld), [&](int body) { return isSupport(body); });
+    if (draft_.unheld.empty()) joinGroups(touching, closed);
+    return;
+  }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (rests[i]) {
       holdAtRest(*rests[i]);

@@ -29,7 +29,7 @@ constexpr std::size_t kMostChanges = 8;
 
 }  // namespace
 
-const Simulator::BodyContactState Simulator::kInFlight = {};
+const BodyContactState Simulator::kInFlight = {};
 
 // The first impact of a pair besides the contacts that hold them to each other.
 std::optional<PredictedImpact> Simulator::besideConstrained(int a, int b, double from, double until) {
@@ -92,6 +92,8 @@ void Simulator::chooseArcs() {
       keep(i);
     else if (draft_.resting[i])
       rest(i);
+    else if (draft_.grouped[i])
+      followGroup(i);
     else
       chooseArc(i);
   }
@@ -276,6 +278,7 @@ double Simulator::strikingSpeed(const Contact& c) {
 
 // The body of a path whose time has come goes on otherwise, from the state that it has.
 void Simulator::resolveTransition(int body) {
+  if (arcOf(body).trajectory().group()) return resolveGroupTransition(body);
   const BodyContactState from = contact_states_[index(body)];
   Event& event = draft_.event;
   beginDraft(from.transition);

@@ -19,7 +19,7 @@ constexpr double kSoon = 1e-9;
 }  // namespace
 
 // How long bodies rest on what moves: while it holds them, and they are on its face. Nothing where that cannot be told.
-std::optional<Simulator::Ride> Simulator::rideOf(const SupportedComponent& component, const std::vector<const Contact*>& on) const {
+std::optional<Ride> Simulator::rideOf(const SupportedComponent& component, const std::vector<const Contact*>& on) const {
   const double now = draft_.event.time;
   Ride ride{*component.carried().by, component.heldUntil(on, motion_.duration)};
   const auto* bodies = dynamic_cast<const BodyGeometry*>(motion_.geometry.get());

@@ -62,7 +62,8 @@ void Simulator::followConstrained(int body, double from) {
   if (in_draft_[index(body)] >= 0) return;
   Arc& arc = pathOf(body);
   if (std::isfinite(arc.availableUntil()) && !(from < arc.knownUntil())) {
-    work_.step(kConstrainedStep);
+    const GroupPath* group = arc.trajectory().group();
+    work_.step(group ? group->workOfStep() : kConstrainedStep);
     try {
       arc.extendTo(std::nextafter(arc.knownUntil(), kInfinity));
     } catch (const NotComputable& error) {
@@ -70,6 +71,7 @@ void Simulator::followConstrained(int body, double from) {
       giveUp("contact", c.a, c.b, from, error);
     }
   }
+  if (arc.trajectory().group()) return refreshGroup(body);
   BodyContactState& contact_state = contact_states_[index(body)];
   if (contact_state.steps == arc.series()) return;
   contact_state.steps = arc.series();
@@ -88,6 +90,7 @@ std::optional<PredictedImpact> Simulator::firstImpact(int a, int b, double from,
     if (!parted) return std::nullopt;
     from = std::max(from, *parted);
   }
+  refreshGroup(a), refreshGroup(b);
   const std::size_t before = workIn(arc_a) + workIn(arc_b);
   std::optional<PredictedImpact> impact;
   if (arc_a.inContact() || arc_b.inContact()) {

@@ -23,7 +23,7 @@ Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duratio
                      const Attempts& before)
     : scene_(scene), contacts_(contacts), impact_limit_(options.impact_limit), steps_before_(before.steps),
       stop_when_(options.stop_when), least_duration_(options.least_duration),
-      refuse_overlaps_(options.refuse_overlaps), work_(options.step_limit, options.stop, options.progress),
+      groups_(options.groups), refuse_overlaps_(options.refuse_overlaps), work_(options.step_limit, options.stop, options.progress),
       builder_(scene, duration), motion_(builder_.motion),
       scales_(scene, *motion_.models), queue_(scene.bodies.size()) {
   contacts_.countIn(&work_);

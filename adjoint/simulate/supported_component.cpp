@@ -18,7 +18,7 @@ using Eigen::Index;
 using Member = SupportedComponent::Member;
 
 // Normals that differ by less are those of one face.
-constexpr double kOneFace = 1e-9;
+constexpr double kOneFaceOf = 1e-9;
 // Accelerations that are left at rest, as a share of gravity, and in rounding, as a share of what they are made of.
 constexpr double kLeftAtRest = 1e-9, kLeftInRounding = 1e-13;
 // Room of a cone that friction may lack at the limit, as a share of the weights there.
@@ -91,7 +91,7 @@ SupportedComponent::SupportedComponent(const Motion& motion, std::vector<Member>
     if (!(std::abs(left) <= kLeftAtRest * motion_.scene->gravity.norm() + kLeftInRounding * size)) continue;
     const bool on_face = std::ranges::any_of(active, [&](int i) {
       const Contact& c = *closed_[asIndex(i)];
-      return c.a == closed_[k]->a && c.b == closed_[k]->b && (c.at.normal - closed_[k]->at.normal).norm() <= kOneFace;
+      return c.a == closed_[k]->a && c.b == closed_[k]->b && (c.at.normal - closed_[k]->at.normal).norm() <= kOneFaceOf;
     });
     if (on_face) presses_[k] = 1;
   }

@@ -20,7 +20,7 @@ const std::map<std::string, std::vector<Layer>>& layers() {
   static const std::map<std::string, std::vector<Layer>> libraries = {
       {"adjoint",
        {folder("base"), folder("numeric"), folder("scene"), folder("flight"), folder("motion"), folder("contact"),
-        folder("impact"), folder("constrained"), folder("simulate"), folder("derivative"), folder("second_order")}},
+        folder("impact"), folder("constrained"), folder("group"), folder("simulate"), folder("derivative"), folder("second_order")}},
       {"editing",
        {folder("detail"),
         {"data", std::regex("(certificate|constraint|control|edit_options|edit_result|motion_function|sequence_changes|"

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "adjoint/base/refuse.hpp"
+#include "adjoint/group/group_modes.hpp"
+#include "adjoint/group/group_start.hpp"
+#include "adjoint/numeric/union_find.hpp"
+#include "adjoint/simulate/contact_modes.hpp"
+#include "adjoint/simulate/simulator.hpp"
+
+// Bodies that move on each other: groups, with one path each (docs/equations.md, 11.34).
+
+namespace carom::adjoint_detail {
+namespace {
+
+// Larger groups take too long: their forces are solved as one (SimulateOptions::groups says so).
+constexpr std::size_t kMostMembers = 8, kMostContacts = 36;
+// Where a slip ends, all that are slower than this share of the unit of speed end with it.
+constexpr double kStopTogether = 1e-6;
+
+int memberIn(const std::vector<int>& bodies, int body) {
+  const auto at = std::ranges::lower_bound(bodies, body);
+  return at != bodies.end() && *at == body ? static_cast<int>(at - bodies.begin()) : -1;
+}
+
+}  // namespace
+
+GroupScene Simulator::groupScene(const std::vector<int>& members, const std::vector<Contact>& closed) const {
+  GroupScene scene;
+  scene.geometry = motion_.geometry;
+  scene.time = draft_.event.time;
+  scene.length = kInfinity;
+  double speed = 0;
+  for (const int body : members) {
+    const State& state = stateAfter(body);
+    const std::shared_ptr<const BodyModel> model = motion_.modelOf(body);
+    double reach = 0;
+    for (const Contact& c : closed)
+      if (c.a == body || c.b == body) reach = std::max(reach, (c.at.point - state.x).norm());
+    const Vec3 gravity = model->gravity_factor * scene_.gravity, spin = model->inverseInertiaWorld(state.q.toRotationMatrix()) * state.L;
+    scene.members.push_back({body, model, gravity});
+    scene.length = std::min(scene.length, reach);
+    scene.size = std::max(scene.size, reach + state.x.lpNorm<Eigen::Infinity>());
+    speed = std::max(speed, std::sqrt(gravity.norm() * reach + state.v.squaredNorm()) + spin.norm() * reach);
+  }
+  scene.speed = speed;
+  for (const Contact& c : closed) {
+    const bool inside = memberIn(members, c.a) >= 0 && memberIn(members, c.b) >= 0;
+    scene.with.push_back(inside ? Support() : supportOf(motion_, memberIn(members, c.a) >= 0 ? c.b : c.a, scene.time));
+  }
+  return scene;
+}
+
+// How bodies that touch go on where they do not all rest: those that are held to each other as groups, others by themselves.
+void Simulator::joinGroups(const std::vector<int>& touching, const std::vector<Contact>& closed) {
+  const auto failed = [&](const std::string& why) {
+    const auto joins = std::ranges::find_if(closed, [&](const Contact& c) { return joinsMoved(c); });
+    for (const Contact& c : closed)
+      if (joinsMoved(c)) draft_.pressing.push_back(c);
+    endBeyond(*joins, why);
+  };
+  if (touching.size() > kMostMembers || closed.size() > kMostContacts)
+    return failed(textOf(3, "they move on each other with ", touching.size(), " bodies and ", closed.size(), " contacts, more than ", kMostMembers, " or ",
+                         kMostContacts));
+  const GroupScene scene = groupScene(touching, closed);
+  std::vector<State> states;
+  for (const int body : touching) states.push_back(stateAfter(body));
+  std::vector<GroupContact> candidates;
+  for (const Contact& c : closed) {
+    GroupContact& of = candidates.emplace_back();
+    of.a = c.a, of.b = c.b, of.features = c.features, of.friction = c.pair.friction;
+    of.member_a = memberIn(touching, c.a), of.member_b = memberIn(touching, c.b);
+  }
+  GroupHint hint;
+  hint.no_slip = std::max(hintOf(closed).no_slip, leastSlip(scene_.gravity.norm(), scene.length));
+  if (draft_.event.kind == EventKind::transition) {
+    if (draft_.event.cause == TransitionCause::sticks) hint.no_slip = std::max(hint.no_slip, kStopTogether * scene.speed);
+    if (draft_.group_beyond && draft_.group_beyond->bodies == touching) hint.beyond = {draft_.group_beyond->states, draft_.group_beyond->time};
+  }
+  GroupModes modes;
+  try {
+    modes = chooseGroupModes(scene, candidates, states, scene.time, hint);
+  } catch (const NotComputable& error) {
+    modes.unresolved = error.what();
+  }
+  if (!modes.unresolved.empty()) return failed(modes.unresolved);
+  UnionFind sets(touching.size());
+  for (const GroupContact& c : modes.contacts)
+    if (c.member_a >= 0 && c.member_b >= 0) sets.join(static_cast<std::size_t>(c.member_a), static_cast<std::size_t>(c.member_b));
+  for (std::size_t root = 0; root < touching.size(); ++root) {
+    std::vector<int> members;
+    for (std::size_t i = 0; i < touching.size(); ++i)
+      if (sets.find(i) == root) members.push_back(touching[i]);
+    if (members.size() > 1) beginGroup(members, closed, modes);
+  }
+}
+
+void Simulator::beginGroup(const std::vector<int>& members, const std::vector<Contact>& closed, const GroupModes& modes) {
+  std::vector<Contact> own;
+  std::vector<GroupContact> contacts;
+  for (std::size_t i = 0; i < modes.held.size(); ++i) {
+    const Contact& c = closed[modes.held[i]];
+    if (memberIn(members, c.a) < 0 && memberIn(members, c.b) < 0) continue;
+    own.push_back(c);
+    contacts.push_back(modes.contacts[i]);
+    contacts.back().member_a = memberIn(members, c.a), contacts.back().member_b = memberIn(members, c.b);
+  }
+  GroupScene scene = groupScene(members, own);
+  std::vector<State> states;
+  for (const int body : members) states.push_back(stateAfter(body));
+  work_.step(kConstrainedStep * std::max<std::size_t>(1, own.size() * own.size() / 4));
+  std::shared_ptr<GroupPath> path;
+  try {
+    std::vector<State> start = groupStart(scene, contacts, std::move(states), scene.time);
+    path = std::make_shared<GroupPath>(std::move(scene), std::move(contacts), modes.redundant, std::move(start), motion_.duration);
+  } catch (const NotComputable& error) {
+    giveUp("contact", own.front().a, own.front().b, draft_.event.time, error);
+  }
+  for (std::size_t slot = 0; slot < members.size(); ++slot) {
+    const auto participant = static_cast<std::size_t>(std::ranges::find(bodies_, members[slot]) - bodies_.begin());
+    GroupMembership& of = draft_.grouped[participant].emplace();
+    of.path = path, of.slot = static_cast<int>(slot);
+    std::ranges::copy_if(own, std::back_inserter(of.held), [&](const Contact& c) { return c.a == members[slot] || c.b == members[slot]; });
+    if (changesTooOften(members[slot])) endBeyond(of.held.front(), "their contact modes change more than 8 times in one instant");
+  }
+}
+
+void Simulator::followGroup(std::size_t participant) {
+  GroupMembership& of = *draft_.grouped[participant];
+  const int body = bodies_[participant];
+  const State& start = of.path->startStates()[static_cast<std::size_t>(of.slot)];
+  Arc arc(motion_.modelOf(body), motion_.plan.bodies[index(body)].tier, of.path, draft_.event.time, start, of.slot);
+  BodyContactState& state = draft_.contact_state[participant];
+  state.held = std::move(of.held);
+  state.steps = arc.series();
+  if (of.path->ending()) state.transition = of.path->knownUntil();
+  draft_.after[participant] = start;
+  draft_.arcs.push_back(std::move(arc));
+  in_draft_[index(body)] = static_cast<int>(participant);
+  any_lasted_ = true;
+}
+
+// What one member has extended is known to all of them.
+void Simulator::refreshGroup(int body) {
+  const GroupPath* path = arcOf(body).trajectory().group();
+  if (!path || contact_states_[index(body)].steps == path->series()) return;
+  for (const GroupMember& member : path->scene().members) {
+    Arc& arc = arcOf(member.body);
+    if (arc.trajectory().group() != path) continue;
+    arc.extendTo(arc.start());  // its bounds
+    BodyContactState& state = contact_states_[index(member.body)];
+    state.steps = path->series();
+    if (path->ending()) state.transition = path->knownUntil();
+    setPath(member.body, arc, std::max(arc.start(), now_));
+  }
+}
+
+// The path of a group whose time has come: all of its bodies go on otherwise, from the states that they have.
+void Simulator::resolveGroupTransition(int body) {
+  const std::shared_ptr<Trajectory> keeps = arcOf(body).shared();
+  const GroupPath& path = *keeps->group();
+  Event& event = draft_.event;
+  const TrajectoryEnd end = path.end();
+  beginDraft(end.time);
+  event.kind = EventKind::transition;
+  event.cause = end.cause;
+  event.border = end.limit;
+  std::vector<int> members;
+  for (const GroupMember& m : path.scene().members) members.push_back(m.body);
+  const auto add = [&](const GroupContact& h, bool lasts) {
+    Contact& c = event.contacts.emplace_back(makeContact(event.time, h.a, h.b, h.features));
+    c.counted = false;
+    c.held = true;
+    c.lasts = lasts;
+  };
+  const GroupContact& first = path.contacts()[index(end.contact)];
+  if (event.cause == TransitionCause::leaves) {
+    const int of = isMoved(first.a) ? first.a : first.b;
+    std::vector<Contact> beyond = contactsBeyond(contact_states_[index(of)], of, event.time);
+    std::erase_if(beyond, [&](const Contact& c) { return c.approach > strikingSpeed(c) || c.a != first.a || c.b != first.b; });
+    if (std::ranges::any_of(beyond, [&](const Contact& c) { return strikes(c); })) return resolveLanding(beyond);
+    add(first, false);
+    for (const Contact& c : beyond)
+      if (!inDraft(c.a, c.b, c.features)) {
+        const bool known = std::ranges::any_of(path.contacts(), [&](const GroupContact& h) { return h.a == c.a && h.b == c.b && h.features == c.features; });
+        GroupContact h;
+        h.a = c.a, h.b = c.b, h.features = c.features;
+        add(h, true);
+        event.contacts.back().held = known;
+      }
+  } else {
+    add(first, event.cause != TransitionCause::lifts);
+  }
+  for (const GroupContact& h : path.contacts())
+    if (!inDraft(h.a, h.b, h.features)) add(h, true);
+  for (const int member : members) addBeside(contact_states_[index(member)]);
+  bodies_ = members;
+  event.participants.clear();
+  draft_.after.clear();
+  for (const int member : members) {
+    const State& state = snapshots_[snapshot(member, event.time)].state;
+    event.participants.push_back({member, static_cast<int>(motion_.world_lines[index(member)].arcs.size()) - 1, 0, state});
+    draft_.after.push_back(state);
+  }
+  draft_.group_beyond.reset();
+  if (auto later = path.beyondEnd()) draft_.group_beyond = {members, std::move(later->first), later->second};
+  addCarriers();
+  chooseArcs();
+  std::erase_if(event.contacts, [](const Contact& c) { return !c.held && !c.lasts; });
+  predictDraft();
+}
+
+}  // namespace carom::adjoint_detail
