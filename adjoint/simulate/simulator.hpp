@@ -239,6 +239,9 @@ class Simulator {
   }
   std::optional<PredictedImpact> besideConstrained(int a, int b, double from, double until);
 
+  // simulator_pressing.cpp: what ends a motion though no contact is new
+  void endWherePressed();
+
   // simulator_search.cpp: predictions
   void predictDraft();
   void predictBody(int body, double from);

@@ -95,6 +95,7 @@ void Simulator::chooseArcs() {
     else
       chooseArc(i);
   }
+  endWherePressed();
   for (Contact& c : event.contacts) {
     if (!c.lasts) continue;
     c.lasts = std::ranges::any_of(draft_.contact_state, [&](const BodyContactState& contact_state) {
