@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adjoint/motion/body_geometry.h"
 #include "adjoint/simulate/contact_acceleration.hpp"
 #include "adjoint/simulate/simulator.hpp"
 
@@ -12,6 +13,10 @@ namespace {
 
 // Accelerations towards each other above this share of the largest one press.
 constexpr double kPressing = 1e-9;
+// Contacts nearer than this share of the size of positions are at one point.
+constexpr double kOnePoint = 1e-9;
+// The sine by which normals differ, or a way along one face goes below another one.
+constexpr double kDiffers = 1e-6;
 
 }  // namespace
 
@@ -35,6 +40,42 @@ void Simulator::endWherePressed() {
     if (gapAcceleration(motion_, c, a, b) < -kPressing * std::max(pull, scene_.gravity.norm()))
       endBeyond(c, "one of them would move, and motion on bodies that can move is not modelled yet");
   }
+}
+
+// Whether a body is on edges that lie along each other, and would move. One that rests there would not stay, were it a little aside.
+bool Simulator::wouldMoveOnEdges(ContactChoice& choice) {
+  if (!lieAlongEdges(choice.contacts, draft_.event.contacts) && !lieAlongEdges(choice.contacts, draft_.touching)) return false;
+  if (choice.path->form == PathForm::rest) {
+    choice.path->loose = true;
+    return false;
+  }
+  endBeyond(*choice.contacts.front(), "it would move on edges that lie along each other, which have no one normal");
+  return true;
+}
+
+// Whether edges lie along each other at some of these contacts, and of others. Each such contact is one with a face at the border
+// of it: where that face goes on, it goes below the face of the other contact at the same point (docs/collision.md).
+bool Simulator::lieAlongEdges(const std::vector<const Contact*>& contacts, const std::vector<Contact>& others) {
+  const auto* bodies = dynamic_cast<const BodyGeometry*>(motion_.geometry.get());
+  if (!bodies) return false;
+  const double time = draft_.event.time;
+  const auto goesBelow = [&](const Contact& c, const Contact& other) {
+    const Pose A = poseAt(c.a, time), B = poseAt(c.b, time);
+    const double near = kOnePoint * std::max(1.0, c.at.point.norm());
+    return std::ranges::any_of(bodies->limits(c.a, c.b, c.features, A, B), [&](const FeatureLimit& limit) {
+      const Pose& pose = limit.body == c.a ? A : B;
+      const bool at_border = std::abs(limit.point_weight.dot(pose.R.transpose() * (c.at.point - pose.x) - limit.border)) <= near;
+      const double on = other.at.normal.dot(pose.R * limit.point_weight);
+      return at_border && (limit.body == c.a ? -on : on) < -kDiffers;
+    });
+  };
+  for (const Contact* c : contacts)
+    for (const Contact& other : others) {
+      if (c->a != other.a || c->b != other.b || (c->at.normal - other.at.normal).norm() <= kDiffers) continue;
+      if ((c->at.point - other.at.point).norm() > kOnePoint * std::max(1.0, c->at.point.norm())) continue;
+      if (goesBelow(*c, other)) return true;
+    }
+  return false;
 }
 
 }  // namespace carom::adjoint_detail
