@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ode_bridge/edges_along.hpp"
 #include "ode_bridge/ground_seams.hpp"
 #include "ode_bridge/leaf_pairs.hpp"
 #include "ode_bridge/near_features.hpp"
@@ -105,11 +106,7 @@ struct Touching {
     const SolidEdge& edge = solid.edges[at];
     // what is a valley from the front of a sheet is a ridge from its back
     if (!edge.convex && !solid.faces[static_cast<std::size_t>(edge.left)].open) return false;
-    const auto falls = [&](int face, double along) {
-      return face < 0 ||
-             n.dot(along * solid.faces[static_cast<std::size_t>(face)].direction.cross(edge.direction)) <= kSame;
-    };
-    return falls(edge.left, 1) && falls(edge.right, -1);
+    return fallsAway(solid, edge, n);
   }
 
   // Whether the foot of the contact is on the feature itself, not on its continuation.
@@ -218,6 +215,13 @@ struct Touching {
         }
   }
 
+  void runAlongEdges() {
+    const std::vector<Vec3> normals = normalsAlongEdges(a, b, witness.n, tolerance, scale);
+    level = std::max(tolerance, kSame * scale);  // each is on the border of the other
+    for (const Vec3& n : normals) run(n);
+    level = tolerance;
+  }
+
   bool isOpen(const FeatureName& f, const FeatureName& g) const {
     if (f.family == Family::face) return a.solid().faces[static_cast<std::size_t>(f.index)].open;
     return b.solid().faces[static_cast<std::size_t>(g.index)].open;
@@ -239,6 +243,13 @@ double sizeOf(const PlacedPiece& a, const PlacedPiece& b) {
 }
 
 }  // namespace
+
+void addAlongEdges(const PlacedPiece& a, const PlacedPiece& b, const Witness& witness, double tolerance,
+                   std::vector<FeaturePair>& found) {
+  Touching touching{a, b, witness, tolerance, tolerance, sizeOf(a, b), found, {}, 0};
+  for (const FeaturePair& f : found) touching.points.push_back(contactAt(*a.body, *b.body, f));
+  touching.runAlongEdges();
+}
 
 void addTouching(const PlacedPiece& a, const PlacedPiece& b, const Witness& witness, double tolerance,
                  std::vector<FeaturePair>& found) {
@@ -313,6 +324,7 @@ std::vector<FeaturePair> touchingFeatures(const Placed& a, const Placed& b, doub
     const double overlap = witness.separation >= -deepest ? -witness.separation : 0;
     of_pieces.clear();
     addTouching(p, q, witness, std::max(reach, 2 * overlap), of_pieces);
+    addAlongEdges(p, q, witness, std::max(reach, 2 * overlap), of_pieces);
     for (const FeaturePair& f : of_pieces) {
       const ContactPoint c = contactAt(a, b, f);
       if (c.gap <= reach) all.push_back({f, c, sizeOf(p, q)});

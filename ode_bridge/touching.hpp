@@ -15,6 +15,10 @@ namespace carom::ode_bridge_detail {
 void addTouching(const PlacedPiece& a, const PlacedPiece& b, const Witness& witness, double tolerance,
                  std::vector<FeaturePair>& found);
 
+/// Adds those of edges that lie along each other, with the outermost of their normals (docs/collision.md).
+void addAlongEdges(const PlacedPiece& a, const PlacedPiece& b, const Witness& witness, double tolerance,
+                   std::vector<FeaturePair>& found);
+
 /// Bodies that overlap by less than this many tolerances of contact touch.
 inline constexpr double kOverlap = 1e4;
 

@@ -91,11 +91,18 @@ class Branch {
   }
   static bool isIn(const Contacts& contacts, int k) { return std::binary_search(contacts.begin(), contacts.end(), k); }
 
-  // A held contact that pulls has no friction, and X may not pull there: else the pressure of other contacts, and with
-  // it their friction, would grow at will against that pull.
+  // A held contact that does not push has no friction, and X may not pull there: else the pressure of other contacts, and
+  // with it their friction, would grow at will against that pull.
   template <class Problem>
   bool isPulled(const Problem& p, int k) const {
-    return isConstrained(p, k) && isIn(normal_active, k) && !(loadOf(k, p.normal[static_cast<std::size_t>(k)]) > S(0));
+    return isConstrained(p, k) && isIn(normal_active, k) && !isLoaded(p, k);
+  }
+  // What nothing loads has a P_N of rounding, of either sign, which must not decide whether it has friction.
+  template <class Problem>
+  bool isLoaded(const Problem& p, int k) const {
+    const V3<S>& n = p.normal[static_cast<std::size_t>(k)];
+    const S gives = loadOf(k, n) * n.dot(V3<S>(p.K.template block<3, 3>(3 * k, 3 * k) * n));
+    return valueOf(gives) > T(kUnloaded) * fastest_;
   }
   S loadOf(int k, const V3<S>& n) const { return n.dot(V3<S>(P_N.template segment<3>(3 * k))); }
   // The state of contact k in its cone; without friction it slides.
@@ -154,8 +161,11 @@ class Branch {
     const MatrixOf<T> A = valuesOf(MatrixOf<S>(N.transpose() * p.K * N));
     const VectorOf<T> asked = valuesOf(VectorOf<S>(share(p, all).cwiseProduct(u_n)));
     push(p, activeContactsOf<T>(A, asked, !p.driven, p.held));
-    if (p.driven || parts(p)) return;
-    push(p, pushing(p, share(p, all), A, asked));
+    if (!p.driven && !parts(p)) push(p, pushing(p, share(p, all), A, asked));
+    Contacts loaded;
+    for (const int k : normal_active)
+      if (isConstrained(p, k) || isLoaded(p, k)) loaded.push_back(k);
+    if (loaded.size() < normal_active.size()) push(p, std::move(loaded));
   }
   template <class Problem>
   void push(const Problem& p, Contacts contacts) {
@@ -164,6 +174,9 @@ class Branch {
     normal.emplace_back(p, normalsOf<S>(p, normal_active), share(p, normal_active));
     P = P_N = normal[0].impulse();
     b = p.u + p.K * P_N;
+    fastest_ = T(0);
+    for (const VectorOf<T>& v : {valuesOf(p.u), valuesOf(b)})
+      for (Index i = 0; i < v.size(); ++i) fastest_ = std::max(fastest_, v[i] < T(0) ? T(-v[i]) : v[i]);
   }
   // Far more contacts than a body has ways to move lose the active set; without friction they are a cone program, too.
   template <class Problem>
@@ -282,6 +295,9 @@ class Branch {
     return true;
   }
 
+  T fastest_ = T(0);  // component of a velocity at the contacts, before or after P_N
+  // Places are doubles: their rounding is in what numbers of 32 digits make of them, too. These serve unlike masses.
+  static constexpr double kUnloaded = std::is_same_v<T, double> ? 1e-12 : 1e-14;
   static constexpr double kTouch = std::is_same_v<T, double> ? 1e-12 : 1e-24;
 
   // Velocities along the normals before and after P, and the size of what they are made of.

@@ -118,6 +118,7 @@ void Simulator::beginDraft(double time) {
   draft_.event = {};
   draft_.event.time = time;
   draft_.woken.clear();
+  draft_.touching.clear();
   snapshots_.clear();
 }
 

@@ -98,6 +98,7 @@ class Simulator {
     std::optional<GroupBeyond> group_beyond;              // of a transition
     std::vector<int> unheld;        // supports that the loads after the event move
     std::vector<Contact> pressing;  // between bodies that do not
+    std::vector<Contact> touching;  // of what is placed: all contacts, whether they press or not
     std::vector<int> woken;         // bodies that rested on others, or under them, and do not stay
     std::string beyond;             // why the motion ends: persistent contact that is not modelled
     std::optional<std::pair<State, double>> past_end;  // of a transition: the body a little later in the modes that end
@@ -119,7 +120,7 @@ class Simulator {
   void startReused();
   bool placeAtStart();
   void beginDraft(double time);
-  bool placeBodies(const std::vector<int>& bodies, std::vector<Contact> contacts);
+  bool placeBodies(const std::vector<int>& bodies, std::vector<Contact> contacts, std::vector<Contact> touching = {});
   void solvePlaced(const std::vector<int>& bodies);
 
   // simulate.cpp: the event
@@ -234,6 +235,11 @@ class Simulator {
     return draft_.contact_state.empty() ? kInFlight : draft_.contact_state[index(i)];
   }
   std::optional<PredictedImpact> besideConstrained(int a, int b, double from, double until);
+
+  // simulator_pressing.cpp: what ends a motion though no contact is new
+  void endWherePressed();
+  bool wouldMoveOnEdges(ContactChoice& choice);
+  bool lieAlongEdges(const std::vector<const Contact*>& contacts, const std::vector<Contact>& others);
 
   // simulator_search.cpp: predictions
   void predictDraft();

@@ -231,6 +231,7 @@ void Simulator::chooseRest(const std::vector<int>& touching, const std::vector<C
 
 // The poses of what has come to rest close its gaps; what stays has more that holds it.
 void Simulator::holdAtRest(RestingComponent& rest) {
+  if (lieAlongEdges(pointersTo(rest.on), rest.on)) rest.opposed = false;  // a little aside it has another normal
   const auto comesToRest = [&](int body) { return isMoved(body) && !isSupport(body); };
   std::vector<Contact> on;
   std::ranges::copy_if(rest.on, std::back_inserter(on), [&](const Contact& c) { return comesToRest(c.a) || comesToRest(c.b); });

@@ -97,6 +97,7 @@ void Simulator::chooseArcs() {
     else
       chooseArc(i);
   }
+  endWherePressed();
   for (Contact& c : event.contacts) {
     if (!c.lasts) continue;
     c.lasts = std::ranges::any_of(draft_.contact_state, [&](const BodyContactState& contact_state) {
@@ -194,6 +195,7 @@ void Simulator::chooseArc(std::size_t participant) {
   }
   // where the motion ends here, the velocities are those of the law: an integrated path would stop what is left of slips
   if (ends && choice.path && choice.path->form == PathForm::held) return fly(participant);
+  if (choice.path && wouldMoveOnEdges(choice)) return fly(participant);
   if (!choice.path) {
     fly(participant);
     if (!choice.beyond.empty()) endBeyond(*choice.contacts.front(), choice.beyond);
@@ -237,7 +239,7 @@ std::vector<Contact> Simulator::contactsBeyond(const BodyContactState& from, int
         motion_.geometry->motion(c.a, c.b, c.features, {a.x, a.R}, {b.x, b.R}, {a.v, a.w}, {b.v, b.w});
     speed = std::max(speed, moves.point_rate.norm());
   }
-  const double further = kBeyond * size, later = time + further / speed;
+  const double further = kBeyond * size, later = speed > 0 ? time + further / speed : time;
   const double reach = kTouching * motion_.lowest_bounce + further * further / arm;
   std::vector<Contact> contacts = contactsAt(from, time, later, reach);
   std::erase_if(contacts, [&](const Contact& c) { return hasLeft(c, later, kLeft * further); });

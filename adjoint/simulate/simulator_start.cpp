@@ -95,22 +95,24 @@ bool Simulator::placeAtStart() {
   for (int body = 0; body < static_cast<int>(scene_.bodies.size()); ++body) {
     if (!isMoved(body) || reused_.has(body) || is_placed[index(body)]) continue;
     beginDraft(0);
-    std::vector<Contact> contacts;
+    std::vector<Contact> contacts, touching;
     for (const PlacedContact* p : on_given[index(body)])
       for (const FeaturePair& f : p->features) {
         Contact c = makeContact(0, p->a, p->b, f);
         const double alpha = accelerationOf(c);
+        touching.push_back(c);
         if (alpha < 0 && c.approach * c.approach < -2 * motion_.lowest_bounce * alpha) contacts.push_back(std::move(c));
       }
-    if (!contacts.empty() && !placeBodies({body}, std::move(contacts))) return false;
+    if (!contacts.empty() && !placeBodies({body}, std::move(contacts), std::move(touching))) return false;
   }
   return true;
 }
 
 // False where these contacts last in a way that is beyond what is known of.
-bool Simulator::placeBodies(const std::vector<int>& bodies, std::vector<Contact> contacts) {
+bool Simulator::placeBodies(const std::vector<int>& bodies, std::vector<Contact> contacts, std::vector<Contact> touching) {
   Event& event = draft_.event;
   beginDraft(0);
+  draft_.touching = std::move(touching);
   event.kind = EventKind::placed;
   event.contacts = std::move(contacts);
   for (Contact& c : event.contacts) {
