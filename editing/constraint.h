@@ -154,8 +154,8 @@ struct Constraint {
   std::vector<std::string> sequence = {};
   std::string notes = {};            ///< for readers; kept in documents
   /// A soft constraint: not met exactly, but a term of what is minimised. With this weight w > 0 it adds
-  /// 1/2 sum (w r / s)^2 over its rows, r the error of a row (SI), s its natural scale. Not for hits, sequences and
-  /// constraints `between` two times.
+  /// 1/2 sum (w r / s)^2 over its rows, r the error of a row (SI), s its natural scale; `between` two times the least of
+  /// these sums in the interval. Not for hits and sequences.
   std::optional<double> soft = std::nullopt;
 };
 

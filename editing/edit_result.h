@@ -67,7 +67,8 @@ struct MetTime {
 /// A fit to soft constraints: r their errors in natural scales, W their weights.
 struct Fit {
   int rows = 0;               ///< errors; 0: there are no soft constraints
-  int parameters = 0;         ///< independent ones that neither hard constraints nor bounds hold
+  /// Independent ones that neither hard constraints nor bounds hold, and the times that the fit chooses within spans.
+  int parameters = 0;
   double sum_of_squares = 0;  ///< |W r|^2; NaN if an error cannot be evaluated
   /// sqrt(|W r|^2 / (rows - parameters)): of one error W r, as estimated from all. Empty if there are no more errors than
   /// parameters.

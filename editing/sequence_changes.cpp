@@ -157,7 +157,8 @@ void compareBodies(const Sequence& before, const Sequence& after, const Bodies& 
   const std::vector<int> a = listFor(before), b = listFor(after);
   const std::string names = namesOf(before.motion, bodies);
   for (const auto& [i, j] : align(before, a, after, b)) {
-    const std::string impact = ordinal((i >= 0 ? i : j) + 1) + " impact of " + names;
+    std::string impact = ordinal((j >= 0 ? j : i) + 1) + " impact of " + names;
+    if (i >= 0 && j >= 0 && i != j) impact += " (the " + ordinal(i + 1) + " before)";
     if (j < 0) {
       const int e = a[static_cast<std::size_t>(i)];
       changes.push_back(

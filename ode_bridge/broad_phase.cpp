@@ -14,7 +14,7 @@ struct BroadPhase::Space {
   std::vector<dGeomID> geoms;
 
   ~Space() {
-    const auto guard = lockOde();
+    const LockedOdeCalls calls;
     clear();
     dSpaceDestroy(space);
   }
@@ -27,7 +27,7 @@ struct BroadPhase::Space {
   dGeomID ofClass(int body, int wanted) {
     dGeomID& geom = geoms[static_cast<std::size_t>(body)];
     if (geom && dGeomGetClass(geom) == wanted) return geom;
-    const auto guard = lockOde();
+    const LockedOdeCalls calls;
     if (geom) dGeomDestroy(geom);
     geom = wanted == dPlaneClass ? dCreatePlane(space, 0, 0, 1, 0) : dCreateBox(space, 1, 1, 1);
     dGeomSetData(geom, reinterpret_cast<void*>(static_cast<std::intptr_t>(body)));
@@ -49,7 +49,7 @@ void note(void* data, dGeomID a, dGeomID b) {
 }  // namespace
 
 BroadPhase::BroadPhase() : space_(std::make_unique<Space>()) {
-  const auto guard = lockOde();
+  const LockedOdeCalls calls;
   space_->space = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
   dSpaceSetCleanup(space_->space, 0);
 }
@@ -58,12 +58,13 @@ BroadPhase::~BroadPhase() = default;
 
 void BroadPhase::reset(std::size_t count) {
   if (space_->geoms.size() == count) return;  // every body gets its bounds anew
-  const auto guard = lockOde();
+  const LockedOdeCalls calls;
   space_->clear();
   space_->geoms.assign(count, nullptr);
 }
 
 void BroadPhase::setBounds(int body, const Bounds& b, bool moving) {
+  const OdeCalls calls;
   const dGeomID geom = space_->ofClass(body, dBoxClass);
   // the library wants sizes above 0; larger boxes only list more pairs
   const Vec3 centre = 0.5 * (b.low + b.high), size = (b.high - b.low).cwiseMax(1e-12);
@@ -74,6 +75,7 @@ void BroadPhase::setBounds(int body, const Bounds& b, bool moving) {
 }
 
 void BroadPhase::setHalfSpace(int body, const Vec3& normal, double offset) {
+  const OdeCalls calls;
   const dGeomID geom = space_->ofClass(body, dPlaneClass);
   dGeomPlaneSetParams(geom, normal.x(), normal.y(), normal.z(), offset);
   dGeomSetCategoryBits(geom, kFixed);
@@ -81,7 +83,7 @@ void BroadPhase::setHalfSpace(int body, const Vec3& normal, double offset) {
 }
 
 void BroadPhase::pairs(std::vector<std::pair<int, int>>& out) const {
-  prepareOdeThread();
+  const OdeCalls calls;
   out.clear();
   dSpaceCollide(space_->space, &out, note);
   for (auto& [a, b] : out)

@@ -5,11 +5,24 @@
 
 namespace carom::ode_bridge_detail {
 
-/// Initialises the collision library once in the process and gives the lock that guards creation and destruction of its
-/// objects, which share state between threads.
-std::unique_lock<std::mutex> lockOde();
+/// Around calls of the collision library: it is initialised, its data of this thread are there, and its errors are thrown.
+/// Those of calls that others in the process make go to the handlers that were set before.
+class OdeCalls {
+ public:
+  OdeCalls();
+  ~OdeCalls();
+  OdeCalls(const OdeCalls&) = delete;
+  OdeCalls& operator=(const OdeCalls&) = delete;
+};
 
-/// Sets up the collision library's data of the calling thread, once a thread.
-void prepareOdeThread();
+/// The same around creation and destruction of its objects, which share state between threads.
+class LockedOdeCalls {
+ public:
+  LockedOdeCalls();
+
+ private:
+  OdeCalls calls_;
+  std::lock_guard<std::mutex> lock_;
+};
 
 }  // namespace carom::ode_bridge_detail

@@ -14,7 +14,7 @@ struct NarrowPhase::Geoms {
   std::vector<dGeomID> geoms;  // boxes only: the other pairs have one candidate each
 
   ~Geoms() {
-    const auto guard = lockOde();
+    const LockedOdeCalls calls;
     clear();
   }
   void clear() {
@@ -31,7 +31,7 @@ void NarrowPhase::reset(const std::vector<Solid>& solids) {
   bool same = geoms_->geoms.size() == solids.size();
   for (std::size_t i = 0; same && i < solids.size(); ++i) same = (geoms_->geoms[i] != nullptr) == solids[i].box;
   if (same) return;  // sizes are set at every call
-  const auto guard = lockOde();
+  const LockedOdeCalls calls;
   geoms_->clear();
   for (const Solid& s : solids) geoms_->geoms.push_back(s.box ? dCreateBox(nullptr, 1, 1, 1) : nullptr);
 }
@@ -54,6 +54,7 @@ std::optional<Vec3> NarrowPhase::candidateNormal(int a, int b, const Placed& pla
                                                  double margin) const {
   const dGeomID ga = geoms_->geoms[static_cast<std::size_t>(a)], gb = geoms_->geoms[static_cast<std::size_t>(b)];
   if (!ga || !gb) return std::nullopt;
+  const OdeCalls calls;
   // the library has lengths of its own that it takes for none: of a power of two the boxes are of about 1
   const double unit = std::ldexp(1, -std::ilogb(std::max(placed_a.solid->bound(), placed_b.solid->bound())));
   place(ga, placed_a, margin, unit);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "carom/version.h"
@@ -182,6 +183,8 @@ std::string stateMessage(std::int64_t rev, const OpenScene* scene, const std::st
   if (!scene->path()) state["suggested"] = scene->suggestedName();
   state["saved"] = scene->isSaved();
   state["recovered"] = recovered;
+  for (const FileRepair& repair : scene->opened().repairs)
+    state["repairs"].push_back(std::filesystem::path(repair.file).filename().string() + " was repaired: " + repair.what);
   state["duration"] = session.duration();
   state["controls"] = controlsOf(session.controls());
   state["numbers"] = numbersOf(session.scene(), session.controls(), scene->opened().scene);

@@ -15,14 +15,12 @@ using namespace adjoint_detail;
 
 namespace {
 
-// Eigen cuts products of large matrices into blocks by the caches that it finds, and so orders their sums. Everything
-// that is computed with begins with a motion; from then on the caches are these ones.
-void fixMatrixBlocks() {
-  [[maybe_unused]] static const bool fixed = [] {
-    Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024);
-    return true;
-  }();
-}
+// Eigen cuts products of large matrices into blocks by the caches that it finds, and so orders their sums. So they are
+// these ones from when the program is loaded, before it has threads; what it sets itself later stays.
+[[maybe_unused]] const bool matrix_blocks_fixed = [] {
+  Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024);
+  return true;
+}();
 
 }  // namespace
 
@@ -30,7 +28,6 @@ Motion simulate(const Scene& scene, ContactSource& contacts, double duration, co
   checkDuration("simulate", duration);
   if (!options.asked.empty()) checkCount("simulate", "bodies asked for", options.asked.size(), scene.bodies.size());
   validate(scene);
-  fixMatrixBlocks();
   for (Attempts before;;) {
     Simulator simulator(scene, contacts, duration, options, before);
     Motion motion = simulator.run();

@@ -124,6 +124,7 @@ def main():
     parser.add_argument("--csv", default="-")
     parser.add_argument("--keep", help="folder for the documents of edits that did not end as they should")
     a = parser.parse_args()
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell ignores it in the background, and so would the edits
     families = {**FEASIBLE, **PROVABLE, **HARD}
     out = sys.stdout if a.csv == "-" else open(a.csv, "w", newline="")
     lines = csv.writer(out, lineterminator="\n")

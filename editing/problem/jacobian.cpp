@@ -6,6 +6,7 @@
 #include "adjoint/derivative/adjoint.h"
 #include "adjoint/derivative/seed.hpp"
 #include "adjoint/derivative/tangent.h"
+#include "editing/problem/rows/nearest_instants.hpp"
 
 namespace carom::editing_detail {
 
@@ -84,6 +85,40 @@ Eigen::MatrixXd jacobianByTangent(const EditProblem& problem, const Eigen::Vecto
   return J;
 }
 
+namespace {
+
+/// The time of a constraint between two times moves with the controls so that its rows miss least: what they change by
+/// along the motion is taken out of their derivatives (variable projection without the second derivatives of rows).
+void followTimes(const ConstraintSet& set, const Motion& motion, const RowValues& rows, Eigen::MatrixXd& J) {
+  for (const FreeTime& span : set.freeTimes()) {
+    std::vector<int> of_it;
+    for (int i = 0; i < set.size(); ++i) {
+      const Row& row = set.rows()[static_cast<std::size_t>(i)];
+      const bool pulls = !row.isRange() || rows.residuals[i] != 0;
+      if (row.constraint == span.constraint && !row.overSpan() && pulls) of_it.push_back(i);
+    }
+    if (of_it.empty() || !movesInSpan(span, motion, rows.seeds[static_cast<std::size_t>(of_it[0])][0].at)) continue;
+    Eigen::VectorXd in_time(static_cast<Eigen::Index>(of_it.size()));
+    Eigen::MatrixXd by_controls(in_time.size(), J.cols());
+    for (Eigen::Index k = 0; k < in_time.size(); ++k) {
+      const int i = of_it[static_cast<std::size_t>(k)];
+      const double scale = set.rows()[static_cast<std::size_t>(i)].scale;
+      in_time[k] = 0;
+      for (const StateSeed& seed : rows.seeds[static_cast<std::size_t>(i)]) in_time[k] += timeDerivative(motion, seed) / scale;
+      by_controls.row(k) = J.row(i) / scale;
+    }
+    const double squares = in_time.squaredNorm();
+    if (!(squares > 0)) continue;
+    const Eigen::RowVectorXd rate = -(in_time.transpose() * by_controls) / squares;
+    for (Eigen::Index k = 0; k < in_time.size(); ++k) {
+      const int i = of_it[static_cast<std::size_t>(k)];
+      J.row(i) += set.rows()[static_cast<std::size_t>(i)].scale * in_time[k] * rate;
+    }
+  }
+}
+
+}  // namespace
+
 Eigen::MatrixXd softJacobian(const EditProblem& problem, const Eigen::VectorXd& unknowns, const Motion& motion,
                              const RowValues& rows) {
   const ConstraintSet& set = problem.soft.set();
@@ -97,6 +132,7 @@ Eigen::MatrixXd softJacobian(const EditProblem& problem, const Eigen::VectorXd& 
     for (Eigen::Index i = 0; i < J.rows(); ++i)
       J.row(i) = problem.controls.gather(adjoint(tape, rows.seeds[i]), values).transpose();
   }
+  if (!set.freeTimes().empty()) followTimes(set, motion, rows, J);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(set.size(), problem.unknowns());
   all.leftCols(n) = J * problem.controls.valueRates(unknowns.head(n)).asDiagonal();
   for (Eigen::Index i = 0; i < all.rows(); ++i) {

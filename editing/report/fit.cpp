@@ -7,6 +7,7 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/numeric/decompositions.hpp"
 #include "editing/detail/messages.hpp"
+#include "editing/problem/rows/nearest_instants.hpp"
 #include "editing/report/constrained_numbers.hpp"
 #include "editing/solve/dependence.hpp"
 #include "editing/solve/least_squares.hpp"
@@ -77,13 +78,21 @@ std::string namesOf(const std::vector<std::string>& names) {
   return listOf({names[0], names[1], std::to_string(names.size() - 2) + " others"});
 }
 
+/// Times that a fit chooses as it chooses parameters.
+int timesChosen(const SoftTerms& soft, const Motion& motion) {
+  const std::vector<Instant> instants = nearestInstants(soft.set(), motion);
+  int count = 0;
+  for (std::size_t k = 0; k < instants.size(); ++k) count += movesInSpan(soft.set().freeTimes()[k], motion, instants[k]);
+  return count;
+}
+
 void deviationsInto(EditResult& result, const FitModel& model) {
   const EditProblem& problem = model.evaluator.problem();
   Fit& fit = result.fit;
   const adjoint_detail::ThinSvd svd(model.linear.S * model.N);
   const double least = kOpen * (svd.s.size() > 0 ? svd.s[0] : 0);
   const Eigen::Index rank = (svd.s.array() > least).count();
-  fit.parameters = static_cast<int>(model.N.cols());
+  fit.parameters = static_cast<int>(model.N.cols()) + timesChosen(problem.soft, result.motion);
   const int freedom = fit.rows - fit.parameters;
   if (freedom <= 0) {
     fit.message = std::to_string(fit.rows) + " errors determine no standard deviations of " +
@@ -116,7 +125,7 @@ void deviationsInto(EditResult& result, const FitModel& model) {
 void fitInto(EditResult& result, const EditEvaluator& evaluator, const EditPointPtr& point) {
   const EditProblem& problem = evaluator.problem();
   if (problem.soft.empty()) return;
-  const RowValues rows = problem.soft.set().evaluate(result.motion);
+  const RowValues rows = problem.soft.evaluate(result.motion);
   result.soft_residuals = constrainedNumbers(problem.soft.set(), rows);
   Fit& fit = result.fit;
   fit.rows = problem.soft.set().size();

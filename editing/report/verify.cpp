@@ -103,6 +103,9 @@ void readMotion(const EditProblem& problem, const Eigen::VectorXd& times, EditRe
   const RowValues rows = problem.constraints.evaluate(result.motion, times);
   result.residuals = constrainedNumbers(problem.constraints, rows);
   result.times = metTimes(problem.constraints, result.motion, rows);
+  if (!problem.soft.empty())
+    for (const MetTime& time : metTimes(problem.soft.set(), result.motion, problem.soft.evaluate(result.motion)))
+      result.times.push_back(time);
   result.residual = largest(rows.residuals);
   result.scaled_residual = largest(rows.scaled);
   result.reliability = reliabilityOf(problem, result.motion, rows);

@@ -54,7 +54,7 @@ StepProblem SessionSolver::stepProblem(EditPoint& point) const {
   step.longest = longest_, step.ease = ease_;
   for (LinearRows* rows : {&step.hard, &step.within, &step.soft, &step.terms}) rows->J.resize(0, n);
   if (!problem_.soft.empty()) {
-    const RowValues soft = problem_.soft.set().evaluate(point.motion);
+    const RowValues soft = problem_.soft.evaluate(point.motion);
     step.terms = {softJacobian(problem_, point.changes, point.motion, soft), problem_.soft.weighted(soft)};
   }
   const Eigen::MatrixXd& J = *point.row_jacobian;

@@ -8,6 +8,7 @@
 #include "editing/detail/messages.hpp"
 #include "editing/problem/rows/constraint_checks.hpp"
 #include "editing/problem/rows/instants.hpp"
+#include "editing/problem/rows/nearest_instants.hpp"
 #include "editing/problem/rows/required_impacts.hpp"
 #include "editing/session/session_state.hpp"
 #include "editing/session/session_words.hpp"
@@ -48,7 +49,7 @@ NailState stateIn(const Scene& scene, const Motion& motion, const Constraint& co
   Constraint exact = constraint;
   exact.soft.reset();
   const ConstraintSet set(scene, {exact}, duration);
-  const RowValues rows = set.evaluate(motion);
+  const RowValues rows = set.evaluate(motion, nearestInstants(set, motion));
   if (!rows.available) {
     state.available = state.met = false;
     state.time = state.error = state.scaled_error = std::numeric_limits<double>::quiet_NaN();

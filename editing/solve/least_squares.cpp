@@ -75,7 +75,7 @@ void cutAt(double until, const SoftTerms& soft, LeastSquaresModel& model) {
   for (int i = 0; i < soft.set().size(); ++i) {
     const Row& row = soft.set().rows()[static_cast<std::size_t>(i)];
     const When& at = soft.set().constraints()[static_cast<std::size_t>(row.constraint)].at;
-    if (!row.overSpan() && at.isTime() && at.time <= until) continue;
+    if (const auto last = recordedUntil(row, at); last && *last <= until) continue;
     model.r[i] = 0;
     model.S.row(i).setZero();
   }
@@ -98,10 +98,15 @@ EditPointPtr stationary(EditEvaluator& evaluator, const EditPointPtr& point, con
 
 }  // namespace
 
+std::optional<double> recordedUntil(const Row& row, const When& at) {
+  if (row.overSpan() || !(at.isTime() || at.span)) return std::nullopt;
+  return at.span ? at.span->second : at.time;
+}
+
 double objectiveUntil(double until, const EditProblem& problem, const EditPoint& point) {
   if (std::isinf(until)) return point.objective;
   LeastSquaresModel errors;
-  errors.r = problem.soft.weighted(problem.soft.set().evaluate(point.motion));
+  errors.r = problem.soft.weighted(problem.soft.evaluate(point.motion));
   errors.S.resize(errors.r.size(), 0);
   cutAt(until, problem.soft, errors);
   return 0.5 * errors.r.squaredNorm() + problem.change(point.changes);
@@ -109,7 +114,7 @@ double objectiveUntil(double until, const EditProblem& problem, const EditPoint&
 
 LeastSquaresModel leastSquaresModel(const EditProblem& problem, EditPoint& point, const std::vector<int>& held_ranges, double until) {
   LeastSquaresModel model;
-  const RowValues soft = problem.soft.set().evaluate(point.motion);
+  const RowValues soft = problem.soft.evaluate(point.motion);
   model.r = problem.soft.weighted(soft);
   model.S = softJacobian(problem, point.changes, point.motion, soft);
   cutAt(until, problem.soft, model);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "editing/solve/edit_evaluator.hpp"
 
@@ -19,6 +20,8 @@ struct LeastSquaresModel {
 /// `until` errors that are read later, or at an event, are left out (0), s.
 LeastSquaresModel leastSquaresModel(const EditProblem& problem, EditPoint& point, const std::vector<int>& held_ranges,
                                     double until = std::numeric_limits<double>::infinity());
+/// Up to when an error reads the motion, s; nothing where an event, or the whole motion, decides.
+std::optional<double> recordedUntil(const Row& row, const When& at);
 /// The objective of the errors up to `until`.
 double objectiveUntil(double until, const EditProblem& problem, const EditPoint& point);
 

@@ -49,7 +49,7 @@ std::string twoValues(const EditEvaluator& evaluator) {
       const Row &a = set.rows()[static_cast<std::size_t>(i)], &b = set.rows()[static_cast<std::size_t>(j)];
       const double between = std::max(a.lower, b.lower) - std::min(a.upper, b.upper);
       if (readTheSame(set, a, b) && between > 2 * evaluator.options().tolerance * a.scale)
-        return withWanted(set, i) + " cannot be met together with " + withWanted(set, j) + ": they constrain the same quantity.";
+        return sentence(withWanted(set, i) + " cannot be met together with " + withWanted(set, j) + ": they constrain the same quantity");
     }
   return "";
 }

@@ -48,12 +48,12 @@ std::vector<EditPointPtr> sampled(EditEvaluator& evaluator, const EditPoint& cen
   return points;
 }
 
-/// The times of the errors at times, each once.
+/// The times up to which errors read the motion, each once.
 std::vector<double> recordedTimes(const ConstraintSet& soft) {
   std::vector<double> times;
   for (const Row& row : soft.rows()) {
     const When& at = soft.constraints()[static_cast<std::size_t>(row.constraint)].at;
-    if (at.isTime() && !row.overSpan()) times.push_back(at.time);
+    if (const auto last = recordedUntil(row, at)) times.push_back(*last);
   }
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());

@@ -61,8 +61,8 @@ std::string explainContradictions(const EditEvaluator& evaluator, const EditPoin
     if (std::abs(off) <= kContradiction * size) continue;
     std::vector<std::string> others;
     for (int row : dependent.on) others.push_back(withTarget(constraints, row));
-    text += (text.empty() ? "" : " ") + withTarget(constraints, dependent.row) + " cannot be met together with " +
-            listOf(others) + ": the controls move them only together.";
+    text += (text.empty() ? "" : " ") + sentence(withTarget(constraints, dependent.row) + " cannot be met together with " +
+                                              listOf(others) + ": the controls move them only together");
   }
   return text;
 }

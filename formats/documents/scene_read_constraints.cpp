@@ -189,11 +189,6 @@ Constraint readSequence(const Json& value, const std::string& where) {
   return constraint;
 }
 
-double readSoft(const Json& value, const When& at, const std::string& where) {
-  if (at.span) fail(where, describe(value) + " beside \"between\"", "a soft constraint at a time, at an impact or at rest");
-  return value.get<double>();
-}
-
 Constraint readConstraint(const Json& value, const Scene& scene, double duration, const std::string& where) {
   if (value.contains("sequence")) return readSequence(value, where);
   if (!value.contains("body")) fail(where, "a constraint without \"body\"", "the name of a moving body");
@@ -227,7 +222,7 @@ Constraint readConstraint(const Json& value, const Scene& scene, double duration
     }
   }
   requireTargets(constraint, value, where);
-  if (value.contains("soft")) constraint.soft = readSoft(value["soft"], constraint.at, where + "/soft");
+  if (value.contains("soft")) constraint.soft = value["soft"].get<double>();
   constraint.notes = textOr(value, "notes");
   return constraint;
 }

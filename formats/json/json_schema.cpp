@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -127,10 +129,21 @@ std::vector<std::string> keysOf(const Json* object) {
   return keys;
 }
 
+/// Of words of other programs for what is not modelled: what happens instead.
+std::string notModelled(std::string word) {
+  std::erase_if(word, [](char c) { return c == '_' || c == '-'; });
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto has = [&](const char* part) { return word.find(part) != std::string::npos; };
+  if (has("rolling")) return "; rolling resistance is not modelled: a ball rolls until something else stops it";
+  if (has("spinning") || has("torsional")) return "; torsional friction is not modelled: a body spins about a contact until something else stops it";
+  if (has("damping") || has("drag")) return "; damping and air resistance are not modelled";
+  return "";
+}
+
 [[noreturn]] void failUnknown(const TreePlace& place, const std::string& member, const Json* node) {
   const std::vector<std::string> known = keysOf(memberOf(node, "properties"));
   fail(pointerTo(place.pointer, member), "an unknown member " + describe(Json(member)),
-       "one of " + expectedOf(member, known));
+       "one of " + expectedOf(member, known) + notModelled(member));
 }
 
 /// "exactly one shape" goes on with the words that there are: those of the shapes among the node's members.

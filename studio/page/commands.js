@@ -44,11 +44,14 @@ export class Commands extends PlayHead {
     await this.tell('undo');
   }
 
-  /** Steps that had not been saved came back with the scene. @param {number} steps */
-  tellRecovered(steps) {
-    const close = () => this.store.set({ notice: null });
+  /** Steps that had not been saved came back with the scene, or mesh files of it were repaired.
+   * @param {number} steps @param {string[]} repairs sentences */
+  tellRecovered(steps, repairs) {
+    const close = () => this.store.set({ notice: null }), others = repairs.length - 1;
+    const repaired = repairs.length ? `${repairs[0]}${others > 0 ? `, and ${others} more` : ''}.` : '';
+    if (!steps) return this.store.set({ notice: { message: repaired, kind: 'amber', key: 'repaired' } });
     this.store.set({ notice: {
-      message: `${steps === 1 ? '1 step' : `${steps} steps`} recovered that had not been saved.`, kind: 'amber', key: 'recovered',
+      message: `${steps === 1 ? '1 step' : `${steps} steps`} recovered that had not been saved. ${repaired}`.trim(), kind: 'amber', key: 'recovered',
       actions: [{ name: 'Keep', act: close }, { name: 'Back', act: () => (close(), void this.undoAll()) }],
     } });
   }

@@ -63,7 +63,7 @@ function start() {
   let gesture = null;
   const connection = new Connection({
     url: `ws://${location.host}/socket`, token: takeToken(), tab: store.state.tab,
-    listener: listener({ store, gesture: () => gesture, opened: () => frame(-1, true), recovered: (steps) => commands.tellRecovered(steps) }),
+    listener: listener({ store, gesture: () => gesture, opened: () => frame(-1, true), recovered: (steps, repairs) => commands.tellRecovered(steps, repairs) }),
   });
   gesture = new Gesture({
     store, connection, space: { touched: (hit) => touchedAt(store.state, hit), ray: (x, y) => view.camera.ray(x, y), project: (p) => [view.camera.project(p)[0], view.camera.project(p)[1]], camera: () => view.camera.axes() },

@@ -8,8 +8,8 @@ import { closedDocument, nothingOfAScene } from './store.js';
 
 /** @typedef {import('./types.js').State} State */
 /** @typedef {{store: import('./store.js').Store<State>, gesture: () => import('./gesture.js').Gesture | null,
- *    opened: () => void, recovered: (steps: number) => void}} Parts `opened`: another scene is shown; `recovered`: it came
- *    with steps that had not been saved */
+ *    opened: () => void, recovered: (steps: number, repairs: string[]) => void}} Parts `opened`: another scene is shown;
+ *    `recovered`: it came with steps that had not been saved, or mesh files that were repaired */
 
 /** @param {Parts} parts @returns {import('./connection.js').Listener} */
 export function listener({ store, gesture, opened, recovered }) {
@@ -36,7 +36,7 @@ export function listener({ store, gesture, opened, recovered }) {
     }
     store.set({ document, connected: 'open', progress: '', ...(was?.open && !sameBodies(was, document) ? ofOtherBodies(store.state, was, document) : {}) });
     if (document.saved && (!was_saved || !store.state.savedMotion)) store.set({ savedMotion: store.state.motion });
-    if (document.recovered && told !== `${session} ${scene}`) recovered(document.recovered);
+    if (told !== `${session} ${scene}` && (document.recovered || document.repairs?.length)) recovered(document.recovered ?? 0, document.repairs ?? []);
     told = `${session} ${scene}`;
     if (!document.nails.some((nail) => nail.id === store.state.selectedNail)) store.set({ selectedNail: -1 });
   };

@@ -21,7 +21,7 @@
  *    orientation?: Quat, velocity?: Vec3, angular_velocity?: Vec3, density?: number, written_mass?: number,
  *    shape?: Record<string, Record<string, number | number[]>>}} BodyState */
 /** @typedef {{type: 'state', re?: number, rev: number, open: boolean, path: string | null, name?: string,
- *    suggested?: string, saved: boolean, recovered?: number, duration: number, controls: Control[], numbers: NumberState[], nails: NailState[],
+ *    suggested?: string, saved: boolean, recovered?: number, repairs?: string[], duration: number, controls: Control[], numbers: NumberState[], nails: NailState[],
  *    keep_sequence?: boolean, undo: string | null, redo: string | null, held_by: string | null, bodies: BodyState[],
  *    materials?: {name: string, elasticity: number, friction: number}[]}} DocumentState */
 

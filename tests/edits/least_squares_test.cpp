@@ -213,9 +213,6 @@ TEST(LeastSquares, ThatHaveNoErrorAreRefused) {
   hit.hits = Hit{"floor"};
   EXPECT_EQ(refused(hit, 1),
             "/constraints/0/soft: found a weight of a hit, expected a constraint that has an error: an impact is there or not");
-  place.at = between(0.2, 0.5);
-  EXPECT_EQ(refused(place, 1),
-            "/constraints/0/soft: found a soft constraint between two times, expected a time, an impact or rest");
 }
 
 TEST(LeastSquares, AreWrittenAndRead) {

@@ -3,8 +3,10 @@
 // meshes, buffers elsewhere.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <random>
 
 #include "adjoint/base/errors.h"
 #include "adjoint/scene/body_model.h"
@@ -180,6 +182,108 @@ TEST(OmiPhysics, IsReadAsGodotWritesIt) {
   EXPECT_TRUE(lift.kinematic);
   EXPECT_NEAR((lift.velocity - Vec3(0, 0, 1)).norm(), 0, 1e-12);
   for (const std::string& warning : imported.report.warnings) EXPECT_EQ(warning.find("OMI"), std::string::npos) << warning;
+}
+
+/// The same as before there was OMI_physics_shape: the list of colliders, bodies with a type of their own, and a trigger.
+json fromOldGodot() {
+  json file = fromGodot();
+  file["extensionsUsed"] = {"OMI_physics_body", "OMI_collider"};
+  file["extensions"] = json::object();
+  file["extensions"]["OMI_collider"]["colliders"] = {{{"type", "capsule"}, {"height", 2.0}, {"radius", 0.25}},
+                                                     {{"type", "box"}, {"size", {10, 1, 10}}},
+                                                     {{"type", "sphere"}, {"radius", 0.3}},
+                                                     {{"type", "box"}, {"size", {1, 1, 1}}, {"isTrigger", true}}};
+  const auto collider = [](int index) -> json { return {{"collider", index}}; };
+  file["nodes"][0]["extensions"]["OMI_physics_body"] = {{"type", "rigid"}, {"mass", 2.5}, {"linearVelocity", {1, 0, 0}}};
+  file["nodes"][1]["extensions"] = {{"OMI_collider", collider(0)}};
+  file["nodes"][2]["extensions"]["OMI_physics_body"] = {{"type", "static"}};
+  file["nodes"][3]["extensions"] = {{"OMI_collider", collider(1)}};
+  file["nodes"][4]["extensions"] = {{"OMI_physics_body", {{"type", "kinematic"}, {"linearVelocity", {0, 1, 0}}}},
+                                    {"OMI_collider", collider(2)}};
+  file["nodes"].push_back({{"name", "Goal"}, {"extensions", {{"OMI_collider", collider(3)}}}});
+  file["scenes"][0]["nodes"].push_back(5);
+  return file;
+}
+
+TEST(OmiPhysics, CollidersOfOlderFilesAreTheSameBodies) {
+  const Imported imported = parseGltfScene(fromOldGodot().dump(), "");
+  const Scene old = imported.document.scene, now = sceneOf(fromGodot());
+  ASSERT_EQ(old.bodies.size(), now.bodies.size());
+  for (std::size_t b = 0; b < now.bodies.size(); ++b) {
+    const Body &is = old.bodies[b], &wanted = now.bodies[b];
+    SCOPED_TRACE(wanted.name);
+    EXPECT_EQ(is.name, wanted.name);
+    EXPECT_EQ(is.fixed, wanted.fixed);
+    EXPECT_EQ(is.kinematic, wanted.kinematic);
+    EXPECT_EQ(is.mass, wanted.mass);
+    EXPECT_EQ(is.shape.index(), wanted.shape.index());
+    EXPECT_EQ(kindOf(is.shape).boundingRadius(is.shape), kindOf(wanted.shape).boundingRadius(wanted.shape));
+    EXPECT_EQ((is.position - wanted.position).norm(), 0);
+    EXPECT_EQ((is.velocity - wanted.velocity).norm(), 0);
+  }
+  EXPECT_EQ(imported.report.triggers, std::vector<std::string>{"Goal"});
+}
+
+TEST(OmiPhysics, CollidersAloneAreFixedBodies) {
+  json file = fromOldGodot();
+  file["nodes"][2].erase("extensions");
+  for (int node : {0, 1, 4, 5}) file["nodes"][static_cast<std::size_t>(node)].erase("extensions");
+  const Scene scene = sceneOf(file);
+  ASSERT_EQ(scene.bodies.size(), 1u);
+  EXPECT_EQ(scene.bodies[0].name, "GroundShape");
+  EXPECT_TRUE(scene.bodies[0].fixed);
+}
+
+// Every kind of shape, that of a mesh too, of random sizes: as OMI_physics_shape has it.
+TEST(OmiPhysics, CollidersOfEveryShape) {
+  std::mt19937 random(51);
+  std::uniform_real_distribution<double> in(0.2, 2);
+  for (int round = 0; round < 40; ++round) {
+    const double radius = in(random), height = 2 * radius + in(random);
+    const json shapes[] = {{{"type", "box"}, {"size", {in(random), in(random), in(random)}}},
+                           {{"type", "sphere"}, {"radius", radius}},
+                           {{"type", "capsule"}, {"radius", radius}, {"height", height}},
+                           {{"type", "cylinder"}, {"radius", radius}, {"height", height}},
+                           {{"type", "hull"}, {"mesh", 0}},
+                           {{"type", "trimesh"}, {"mesh", 0}},
+                           {{"type", "box"}}, {{"type", "sphere"}}, {{"type", "capsule"}}, {{"type", "cylinder"}}};
+    for (const json& flat : shapes) {
+      SCOPED_TRACE(flat.dump());
+      json nested = {{"type", flat["type"]}};
+      for (const auto& [word, value] : flat.items())
+        if (word != "type") nested[flat["type"].get<std::string>()][word] = value;
+      json old = drawnInFloats(), now = drawnInFloats();
+      old["extensions"]["OMI_collider"]["colliders"] = json::array({flat});
+      now["extensions"]["OMI_physics_shape"]["shapes"] = json::array({nested});
+      old["nodes"] = {{{"name", "a"}, {"extensions", {{"OMI_collider", {{"collider", 0}}}}}}};
+      now["nodes"] = {{{"name", "a"}, {"extensions", {{"OMI_physics_body", {{"collider", {{"shape", 0}}}}}}}}};
+      for (json* file : {&old, &now}) (*file)["scenes"] = {{{"nodes", {0}}}};
+      const Scene is = sceneOf(old), wanted = sceneOf(now);
+      ASSERT_EQ(is.bodies.size(), 1u);
+      EXPECT_EQ(is.bodies[0].shape.index(), wanted.bodies[0].shape.index());
+      EXPECT_EQ(kindOf(is.bodies[0].shape).boundingRadius(is.bodies[0].shape),
+                kindOf(wanted.bodies[0].shape).boundingRadius(wanted.bodies[0].shape));
+    }
+  }
+}
+
+TEST(OmiPhysics, CollidersThatAreWrongOrOfTheFirstDraftAreNamed) {
+  json file = fromOldGodot();
+  file["nodes"][1]["extensions"]["OMI_collider"]["collider"] = 7;
+  EXPECT_NE(refusal(file).find("/nodes/1/extensions/OMI_collider/collider"), std::string::npos) << refusal(file);
+  file = fromOldGodot();
+  file["extensions"]["OMI_collider"]["colliders"][0]["height"] = 0.4;
+  EXPECT_NE(refusal(file).find("/extensions/OMI_collider/colliders/0/height"), std::string::npos) << refusal(file);
+  file = fromOldGodot();
+  file["extensions"]["OMI_collider"]["colliders"][0].erase("type");
+  EXPECT_NE(refusal(file).find("/extensions/OMI_collider/colliders/0"), std::string::npos) << refusal(file);
+  file = fromGodot();
+  file["nodes"].push_back({{"name", "Draft"}, {"extensions", {{"OMI_collider", {{"type", "sphere"}, {"radius", 0.5}}}}}});
+  file["scenes"][0]["nodes"].push_back(5);
+  const Imported imported = parseGltfScene(file.dump(), "");
+  EXPECT_EQ(imported.document.scene.bodies.size(), 3u);
+  const auto& warnings = imported.report.warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) { return w.find("OMI_collider") != std::string::npos; }));
 }
 
 TEST(OmiPhysics, WhatIsWrongIsNamed) {

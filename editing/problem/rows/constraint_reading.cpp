@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "adjoint/derivative/seed.hpp"
 #include "editing/detail/messages.hpp"
 #include "editing/problem/rows/closest_approach.hpp"
 #include "editing/problem/rows/constraint_checks.hpp"
@@ -209,12 +210,36 @@ void ConstraintSet::readRegion(const Motion& motion, int i, RowValues& out) cons
                 constraints_[row.constraint].body + "' keeps to a region. " + motion.message;
 }
 
-RowValues ConstraintSet::evaluate(const Motion& motion, const Eigen::VectorXd& times) const {
+RowValues ConstraintSet::unread() const {
   RowValues out;
-  out.times = times;
   out.values = out.residuals = out.scaled = Eigen::VectorXd::Constant(size(), kNotRead);
   out.seeds.resize(rows_.size());
   out.notes.resize(rows_.size());
+  return out;
+}
+
+RowValues ConstraintSet::evaluate(const Motion& motion, const Eigen::VectorXd& times) const {
+  RowValues out = evaluateWith(motion, [&](int constraint) {
+    const int free = bound_[static_cast<std::size_t>(constraint)].free_time;
+    return read(motion, constraint, free >= 0 ? times[free] : 0);
+  });
+  out.times = times;
+  return out;
+}
+
+RowValues ConstraintSet::evaluate(const Motion& motion, std::span<const Instant> instants) const {
+  RowValues out = evaluateWith(motion, [&](int constraint) {
+    const int free = bound_[static_cast<std::size_t>(constraint)].free_time;
+    const Instant at = free >= 0 ? instants[static_cast<std::size_t>(free)] : Instant();
+    return at.event >= 0 ? readAt(motion, constraint, at) : read(motion, constraint, at.time);
+  });
+  out.times.resize(static_cast<Eigen::Index>(instants.size()));
+  for (std::size_t k = 0; k < instants.size(); ++k) out.times[static_cast<Eigen::Index>(k)] = timeOf(motion, instants[k]);
+  return out;
+}
+
+RowValues ConstraintSet::evaluateWith(const Motion& motion, const std::function<Reading(int)>& read_constraint) const {
+  RowValues out = unread();
   for (std::size_t k = 0; k < constraints_.size(); ++k) {
     const int index = static_cast<int>(k);
     if (!waitsForEvent(index) || awaited(motion, index)) continue;
@@ -236,8 +261,7 @@ RowValues ConstraintSet::evaluate(const Motion& motion, const Eigen::VectorXd& t
     } else {
       if (row.constraint != current) {
         current = row.constraint;
-        const int free = bound_[current].free_time;
-        reading = read(motion, current, free >= 0 ? times[free] : 0);
+        reading = read_constraint(current);
         if (!reading.available) {
           out.available = false;
           if (out.message.empty()) out.message = reading.message;
@@ -266,6 +290,30 @@ double ConstraintSet::missAt(const Motion& motion, int index, double time) const
     sum += scaled * scaled;
   }
   return sum;
+}
+
+ValueInTime ConstraintSet::missInTime(const Motion& motion, int index, double time) const {
+  const Reading reading = readAt(motion, index, Instant::at(time));
+  RowValues rows = unread();
+  ValueInTime miss{time, 0, 0};
+  for (int i = 0; i < size(); ++i) {
+    const Row& row = rows_[i];
+    if (row.constraint != index || row.overSpan()) continue;
+    readRow(i, reading, rows);
+    const double scaled = residual(i, rows.values[i]) / row.scale;
+    miss.value += 0.5 * scaled * scaled;
+    for (const StateSeed& seed : rows.seeds[i]) miss.rate += scaled / row.scale * timeDerivative(motion, seed);
+  }
+  return miss;
+}
+
+std::vector<int> ConstraintSet::bodiesRead(int index) const {
+  const Bound& bound = bound_[index];
+  std::vector<int> bodies{bound.body};
+  if (bound.relative_to >= 0) bodies.push_back(bound.relative_to);
+  for (const int other : bound.to)
+    if (other >= 0) bodies.push_back(other);
+  return bodies;
 }
 
 std::vector<ConstrainedTime> ConstraintSet::constrainedTimes(const Motion& motion, const Eigen::VectorXd& times) const {

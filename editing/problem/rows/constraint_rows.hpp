@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include "adjoint/motion/motion.h"
 #include "editing/constraint.h"
 #include "editing/problem/rows/bound_function.hpp"
+#include "editing/problem/rows/least_in_time.hpp"
 #include "editing/problem/rows/quantities.hpp"
 #include "editing/problem/rows/region_rows.hpp"
 #include "editing/problem/rows/required_impacts.hpp"
@@ -118,11 +120,18 @@ class ConstraintSet {
   /// result unavailable, with a sentence; they are not an error.
   RowValues evaluate(const Motion& motion) const { return evaluate(motion, nearestTimes(motion)); }
   RowValues evaluate(const Motion& motion, const Eigen::VectorXd& times) const;
+  /// The same with an instant for each free time, which may be an event.
+  RowValues evaluate(const Motion& motion, std::span<const Instant> instants) const;
   /// When constraints hold whose time is not given: those at some time of a span, and those at rest that the motion
   /// has.
   std::vector<ConstrainedTime> constrainedTimes(const Motion& motion, const Eigen::VectorXd& times) const;
   /// For each free time one at which its constraint is most nearly met, among many.
   Eigen::VectorXd nearestTimes(const Motion& motion) const;
+  /// What a constraint between two times misses by if it is read at a time, half the sum of squares of its scaled
+  /// residuals, and the rate of that there.
+  ValueInTime missInTime(const Motion& motion, int constraint, double time) const;
+  /// Bodies whose states the rows of a constraint are read from.
+  std::vector<int> bodiesRead(int constraint) const;
 
   /// How the weights of a row's seeds change when the states that they are read from change at `rates`, one a seed;
   /// `times` as for evaluate.
@@ -218,6 +227,8 @@ class ConstraintSet {
   const BoundRegion& regionOf(int row) const;
   void readObjective(const Motion& motion, RowValues& out) const;
   double missAt(const Motion& motion, int constraint, double time) const;
+  RowValues unread() const;
+  RowValues evaluateWith(const Motion& motion, const std::function<Reading(int)>& read_constraint) const;
 
   int body_count_ = 0;
   std::vector<Constraint> constraints_;

@@ -6,6 +6,7 @@
 
 #include "adjoint/base/errors.h"
 #include "editing/detail/messages.hpp"
+#include "editing/problem/rows/nearest_instants.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -17,8 +18,6 @@ void checkSoft(const Constraint& constraint, const std::string& where) {
   if (constraint.hits || !constraint.sequence.empty())
     throw InputError(where, std::string("found a weight of ") + (constraint.hits ? "a hit" : "a sequence") +
                                 ", expected a constraint that has an error: an impact is there or not");
-  if (constraint.at.span)
-    throw InputError(where, "found a soft constraint between two times, expected a time, an impact or rest");
 }
 
 /// One row of the sum: its seeds, their rates, and what the sum takes of it.
@@ -52,13 +51,14 @@ std::vector<StateSeed> ratesOf(const SoftTerm& term, std::span<const BodyStateRa
 
 /// Whether the seeds of a row change with the states as its note says, or not at all.
 bool hasItsRates(const Row& row, const Constraint& constraint, const RowNote& note) {
-  if (!note.second_order || row.overSpan()) return false;
+  if (!note.second_order || row.overSpan() || constraint.at.span) return false;
   return row.kind && (row.kind->read || (constraint.relative_to.empty() && !row.kind->seed_rate));
 }
 
+/// A time within a span is where the miss is least, so that the sum does not change with it to first order.
 RowReading readingOfAll(const ConstraintSet& set, const Eigen::VectorXd& weights, const Motion& motion) {
   RowReading sum;
-  const RowValues rows = set.evaluate(motion);
+  const RowValues rows = set.evaluate(motion, nearestInstants(set, motion));
   if (!rows.available) {
     sum.missing = rows.message;
     return sum;
@@ -124,6 +124,8 @@ SoftTerms::SoftTerms(const Scene& scene, const std::vector<Constraint>& constrai
     weights_[i] = *set->constraints()[static_cast<std::size_t>(set->rows()[static_cast<std::size_t>(i)].constraint)].soft;
   set_ = set;
 }
+
+RowValues SoftTerms::evaluate(const Motion& motion) const { return set_->evaluate(motion, nearestInstants(*set_, motion)); }
 
 OwnFunctions SoftTerms::beside(const Scene& scene, OwnFunctions own, double duration) const {
   if (empty()) return own;

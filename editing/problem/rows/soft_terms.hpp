@@ -15,12 +15,14 @@ namespace carom::editing_detail {
 /// errors in natural scales.
 class SoftTerms {
  public:
-  /// Throws InputError naming "/constraints/<i>/soft": a weight that is not positive, a hit, a sequence, a constraint
-  /// between two times; and what ConstraintSet throws.
+  /// Throws InputError naming "/constraints/<i>/soft": a weight that is not positive, a hit, a sequence; and what
+  /// ConstraintSet throws.
   SoftTerms(const Scene& scene, const std::vector<Constraint>& constraints, double duration);
 
   bool empty() const { return set_->size() == 0; }
   const ConstraintSet& set() const { return *set_; }
+  /// Reads all rows in a motion, those of constraints between two times where they are missed least.
+  RowValues evaluate(const Motion& motion) const;
   /// Of each row, w.
   const Eigen::VectorXd& weights() const { return weights_; }
   /// w r of each row.

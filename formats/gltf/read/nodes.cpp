@@ -204,7 +204,7 @@ void reportRequired(const JsonPlace& document, ImportReport& report) {
     const std::string& name = required->at(i).text();
     bool known = (readsDraco() && name == "KHR_draco_mesh_compression") || (readsMeshopt() && name == "EXT_meshopt_compression");
     for (const char* prefix : {"KHR_physics_rigid_bodies", "KHR_implicit_shapes", "KHR_collision_shapes",
-                               "OMI_physics_gravity", "OMI_physics_body", "OMI_physics_shape", "KHR_mesh_quantization", "KHR_lights_", "KHR_materials_", "KHR_texture_", "EXT_texture_"})
+                               "OMI_physics_gravity", "OMI_physics_body", "OMI_physics_shape", "OMI_collider", "KHR_mesh_quantization", "KHR_lights_", "KHR_materials_", "KHR_texture_", "EXT_texture_"})
       known = known || name.rfind(prefix, 0) == 0;
     if (!known) report.warnings.push_back("the file requires the extension " + name + ", which is not supported");
   }

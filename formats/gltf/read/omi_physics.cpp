@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OMI_physics_body and OMI_physics_shape -> KHR_physics_rigid_bodies and KHR_implicit_shapes.
+// OMI_physics_body, OMI_physics_shape and OMI_collider -> KHR_physics_rigid_bodies and KHR_implicit_shapes.
 #include <tiny_gltf.h>
 
 #include <Eigen/Geometry>
@@ -18,6 +18,7 @@ namespace {
 constexpr const char* kKhronosBody = "KHR_physics_rigid_bodies";
 constexpr const char* kOmiBody = "OMI_physics_body";
 constexpr const char* kOmiShape = "OMI_physics_shape";
+constexpr const char* kOmiCollider = "OMI_collider";
 
 /// OMI has the height of a capsule with its caps, Khronos without.
 Json capsuleOf(const JsonPlace& shape) {
@@ -28,10 +29,11 @@ Json capsuleOf(const JsonPlace& shape) {
   return {{"type", "capsule"}, {"capsule", {{"height", between}, {"radiusBottom", radius}, {"radiusTop", radius}}}};
 }
 
-Json shapeOf(const JsonPlace& shape) {
+/// The members of a shape are in one named after its type; those of OMI_collider, before, beside the type.
+Json shapeOf(const JsonPlace& shape, bool flat = false) {
   std::string type = shape.require("type").text();
   static const Json kNothing = Json::object();
-  const auto found = shape.find(type.c_str());
+  const auto found = flat ? std::optional(shape) : shape.find(type.c_str());
   const JsonPlace content = found ? *found : JsonPlace{kNothing, shape.pointer};
   if (type == "capsule") return capsuleOf(content);
   if (type == "cylinder") {
@@ -85,6 +87,43 @@ Json bodyOf(const JsonPlace& body, std::size_t first_shape, std::size_t shapes, 
   return out;
 }
 
+/// The shapes that come from other extensions, behind those of KHR_implicit_shapes.
+struct AddedShapes {
+  std::size_t first = 0, count = 0;               ///< of OMI_physics_shape
+  std::size_t first_collider = 0, colliders = 0;  ///< of OMI_collider
+  std::vector<char> is_trigger;                   ///< of each of the latter
+};
+
+std::optional<JsonPlace> listIn(const JsonPlace& document, const char* extension, const char* list) {
+  const auto found = extensionOf(document, extension);
+  return found ? found->find(list) : std::nullopt;
+}
+
+AddedShapes addShapes(const JsonPlace& document, Json& list) {
+  AddedShapes added{.first = list.size()};
+  if (const auto shapes = listIn(document, kOmiShape, "shapes"))
+    for (; added.count < shapes->size(); ++added.count) list.push_back(shapeOf(shapes->at(added.count)));
+  added.first_collider = list.size();
+  const auto colliders = listIn(document, kOmiCollider, "colliders");
+  for (; colliders && added.colliders < colliders->size(); ++added.colliders) {
+    const JsonPlace collider = colliders->at(added.colliders);
+    list.push_back(shapeOf(collider, true));
+    added.is_trigger.push_back(collider.booleanOr("isTrigger", false));
+  }
+  return added;
+}
+
+/// Adds the collider, or the trigger, of a node to the physics that it has in Khronos' words. One of the first draft, which
+/// has its members in the node, does not say whether its sizes are halves: it is left, and reported as ignored.
+bool addCollider(const JsonPlace& node, const AddedShapes& shapes, Json& physics) {
+  const auto written = extensionOf(node, kOmiCollider);
+  const auto index = written ? written->find("collider") : std::nullopt;
+  if (!index) return false;
+  const auto collider = static_cast<std::size_t>(index->index(shapes.colliders, "colliders"));
+  physics[shapes.is_trigger[collider] ? "trigger" : "collider"] = {{"geometry", {{"shape", shapes.first_collider + collider}}}};
+  return true;
+}
+
 /// Rotations of all nodes that are reached, in the world.
 void turnAll(const tinygltf::Model& model, int node, const Mat3& above, std::vector<Mat3>& turns) {
   struct Visit {
@@ -108,25 +147,25 @@ Json withKhronosPhysics(Json document, const tinygltf::Model& model) {
   const JsonPlace place{written, ""};
   const auto nodes = place.find("nodes");
   bool any = false;
-  for (std::size_t i = 0; nodes && i < nodes->size(); ++i) any = any || extensionOf(nodes->at(i), kOmiBody);
+  for (std::size_t i = 0; nodes && i < nodes->size(); ++i)
+    any = any || extensionOf(nodes->at(i), kOmiBody) || extensionOf(nodes->at(i), kOmiCollider);
   if (!any) return document;
   Json& list = document["extensions"]["KHR_implicit_shapes"]["shapes"];
   if (!list.is_array()) list = Json::array();
-  const std::size_t first = list.size();
-  std::size_t count = 0;
-  if (const auto shapes = extensionOf(place, kOmiShape) ? extensionOf(place, kOmiShape)->find("shapes") : std::nullopt)
-    for (; count < shapes->size(); ++count) list.push_back(shapeOf(shapes->at(count)));
+  const AddedShapes shapes = addShapes(place, list);
   std::vector<Mat3> turns(model.nodes.size(), Mat3::Identity());
   if (!model.scenes.empty())
     for (const int root : model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes)
       turnAll(model, root, Mat3::Identity(), turns);
   for (std::size_t i = 0; i < nodes->size(); ++i) {
     const auto body = extensionOf(nodes->at(i), kOmiBody);
-    if (!body) continue;
+    if (!body && !extensionOf(nodes->at(i), kOmiCollider)) continue;
     Json& extensions = document["nodes"][i]["extensions"];
     if (extensions.contains(kKhronosBody)) continue;  // and reported as ignored
+    Json physics = body ? bodyOf(*body, shapes.first, shapes.count, turns[i]) : Json::object();
+    if (addCollider(nodes->at(i), shapes, physics)) extensions.erase(kOmiCollider);
     extensions.erase(kOmiBody);
-    extensions[kKhronosBody] = bodyOf(*body, first, count, turns[i]);
+    if (!physics.empty()) extensions[kKhronosBody] = std::move(physics);
   }
   return document;
 }

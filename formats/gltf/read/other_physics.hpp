@@ -12,7 +12,7 @@ class Model;
 
 namespace carom::gltf {
 
-/// The document with OMI_physics_body and OMI_physics_shape, as Godot writes them, turned into KHR_physics_rigid_bodies and
+/// The document with OMI_physics_body and OMI_physics_shape or OMI_collider, as Godot writes them, turned into KHR_physics_rigid_bodies and
 /// KHR_implicit_shapes: velocities from the axes of the world into the node's, heights of capsules without their caps, mass 1
 /// where none is given. Nodes that have the latter extension keep it. Throws InputError with the JSON pointer.
 formats_detail::Json withKhronosPhysics(formats_detail::Json document, const tinygltf::Model& model);

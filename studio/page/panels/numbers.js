@@ -69,15 +69,15 @@ export function showNumbers(store, commands) {
     } }, icon(open ? 'down' : 'right'));
     return el('section', { class: 'control', 'aria-label': name },
       el('div', { class: 'control-head' }, box, el('span', { class: 'cut grow' }, name), fold),
-      ...numbers.map((number) => numberRow(number, name)), open && details(document, control, i));
+      ...numbers.map(numberRow), open && details(document, control, i));
   };
 
-  /** @param {NumberState} number @param {string} name */
-  const numberRow = (number, name) => {
+  /** @param {NumberState} number */
+  const numberRow = (number) => {
     const label = el('span', { class: 'component' }, number.component);
     const opened = el('span', { class: 'opened dim' }), bar = el('span', { class: 'bound', title: 'at its bound' });
     let now = number.now;
-    const field = numberField({ name: `${name}, ${number.component}`, value: number.now, scale: number.scale, disabled: !number.pointer,
+    const field = numberField({ name: number.name, value: number.now, scale: number.scale, disabled: !number.pointer,
       act: (value) => number.pointer && void commands.setValue(number.pointer, value) });
     const { pointer } = number;
     if (pointer) scrubs(label, () => now, number.scale, (value, done) => {

@@ -89,7 +89,7 @@ export class FakeStudio {
   }
 
   state(re) {
-    const numbers = ['x', 'y', 'z'].map((component, i) => ({ control: 0, name: `velocity of 'ball <b>', ${component}`, component, opened: [2, 0, 3][i], now: this.velocity[i], min: null, max: null, scale: 1, at_bound: null, pointer: `/bodies/1/velocity/${i}` }));
+    const numbers = ['x', 'y', 'z'].map((component, i) => ({ control: 0, name: `velocity.${component} of 'ball <b>'`, component, opened: [2, 0, 3][i], now: this.velocity[i], min: null, max: null, scale: 1, at_bound: null, pointer: `/bodies/1/velocity/${i}` }));
     return JSON.stringify(this.open ? {
       type: 'state', re, rev: this.rev, open: true, path: 'throw.json', name: 'A throw', saved: this.saved, duration: 1.5, controls: this.controls, numbers: this.controls.length ? numbers : [],
       nails: this.nails, undo: this.history.length ? "drag of 'ball <b>'" : null, redo: this.future.length ? 'drag' : null, held_by: null,

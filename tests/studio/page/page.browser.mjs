@@ -117,7 +117,7 @@ test('without a mouse: choose, take, move, confirm; fields keep their keys', { s
   await page.keyboard.press('Enter');
   await until(page, '(s) => s.gesture.state === "idle"');
   assert.deepEqual(studio.heard.map((one) => one.type), ['hello', 'grab', 'drag', 'release']);
-  const field = page.getByLabel("velocity of ball <b>, x");
+  const field = page.getByLabel("velocity.x of 'ball <b>'");
   await field.fill('1+1.5');
   await field.press('g');
   await field.fill('1+1.5');

@@ -71,7 +71,7 @@ test('a nail: its components are switched, its hoop and its diamond are dragged,
 }));
 
 test('a number: arrows step, its label scrubs, its switch takes the control away; space and Enter press what has the focus', { skip }, () => openFake(browser, {}, async (page, studio) => {
-  const field = page.getByLabel('velocity of ball <b>, z');
+  const field = page.getByLabel("velocity.z of 'ball <b>'");
   await field.press('ArrowUp');
   await until(page, '(s) => s.document.numbers[2].now > 3');
   await field.press('Escape');
