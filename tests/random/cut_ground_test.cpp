@@ -254,7 +254,7 @@ TEST(CutGround, CarriesBodiesAsTheWholeOneDoes) {
   std::map<std::string, std::array<int, 4>> count;
   double worst = 0, worst_share = 0, worst_gradient = 0;
   int gradients = 0;
-  for (std::uint64_t seed = kFirst; seed < kFirst + static_cast<std::uint64_t>(scaled(20)); ++seed) {
+  for (std::uint64_t seed = kFirst; seed < kFirst + static_cast<std::uint64_t>(scaled(12)); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Play play = playOf(seed);
     const Motion whole = played(play.whole);

@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-const int kStacks = test::scaled(100);
+const int kStacks = test::scaled(60);
 
 struct Stack {
   Scene scene;

@@ -19,7 +19,7 @@ namespace {
 using namespace test;
 
 constexpr int kSamples = 60;
-const int kWorlds = scaled(400);
+const int kWorlds = scaled(260);
 constexpr double kDepth = 1e-9;
 
 Scene randomWorld(std::uint64_t seed) {
