@@ -10,6 +10,7 @@
 #include "adjoint/contact/cone_program.hpp"
 #include "adjoint/contact/cone_rates.hpp"
 #include "adjoint/impact/directed_solve.hpp"
+#include "adjoint/impact/impact_jam.hpp"
 #include "adjoint/numeric/double_double.hpp"
 
 // Equation 4.4, contacts of one instant together, each with u_n <= 0 before:
@@ -71,6 +72,7 @@ class Branch {
     if (normal_active.empty() || !(rubs || from_zero)) return;
     setKappa(p, rubs);
     if (lowest_e_t < 0) return;
+    if (p.driven && rubs && jams(p)) throw NotComputable("friction at contacts with a kinematic body would grow without bound: it wedges what it strikes");
     try {
       addFriction(p);
       if (parts(p)) return;
@@ -210,6 +212,26 @@ class Branch {
       if (!isPulled(p, k) && (hasFriction(p, k) || !rubs) && (lowest_e_t < 0 || bound < kappa))
         kappa = bound, lowest_e_t = k;
     }
+  }
+  template <class Problem>
+  bool jams(const Problem& p) const {
+    const auto n = static_cast<Index>(normal_active.size());
+    Eigen::MatrixXd K(3 * n, 3 * n);
+    Eigen::VectorXd v(3 * n);
+    std::vector<Vec3> normals;
+    std::vector<double> frictions;
+    for (Index i = 0; i < n; ++i) {
+      const int k = normal_active[static_cast<std::size_t>(i)];
+      for (Index j = 0; j < n; ++j) {
+        const MatrixOf<S> block = p.K.template block<3, 3>(3 * k, 3 * normal_active[static_cast<std::size_t>(j)]);
+        for (Index r = 0; r < 3; ++r)
+          for (Index c = 0; c < 3; ++c) K(3 * i + r, 3 * j + c) = rounded(valueOf(block(r, c)));
+      }
+      v.segment<3>(3 * i) = roundedOf(V3<S>(b.template segment<3>(3 * k)));
+      normals.push_back(roundedOf(p.normal[static_cast<std::size_t>(k)]));
+      frictions.push_back(isPulled(p, k) ? 0 : rounded(valueOf(p.pair[static_cast<std::size_t>(k)].friction)));
+    }
+    return frictionGrows(K, v, normals, frictions);
   }
   void leaveOutFriction() {
     P = P_N, lowest_e_t = -1;
