@@ -20,8 +20,16 @@ constexpr int kJamSteps = 40;
 }  // namespace
 
 // min b.X over X = Z y, Z those that move nothing, with mu n.X >= |X_t| at every contact and sum n.X <= 1.
-bool frictionGrows(const Eigen::MatrixXd& K, const Eigen::VectorXd& b, const std::vector<Vec3>& normal, const std::vector<double>& friction) {
+bool frictionGrows(const Eigen::MatrixXd& all_K, const Eigen::VectorXd& all_b, const std::vector<int>& contacts, const std::vector<Vec3>& normal,
+                   const std::vector<double>& friction) {
   const auto n = static_cast<Index>(normal.size());
+  Eigen::MatrixXd K(3 * n, 3 * n);
+  Eigen::VectorXd b(3 * n);
+  for (Index i = 0; i < n; ++i) {
+    const Index from = 3 * contacts[static_cast<std::size_t>(i)];
+    b.segment<3>(3 * i) = all_b.segment<3>(from);
+    for (Index j = 0; j < n; ++j) K.block<3, 3>(3 * i, 3 * j) = all_K.block<3, 3>(from, 3 * contacts[static_cast<std::size_t>(j)]);
+  }
   const ThinSvd svd(K);
   Index rank = 0;
   while (rank < svd.s.size() && svd.s[rank] > kMovesNothing * svd.s[0]) ++rank;

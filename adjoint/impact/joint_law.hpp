@@ -11,6 +11,7 @@
 #include "adjoint/contact/cone_rates.hpp"
 #include "adjoint/impact/directed_solve.hpp"
 #include "adjoint/impact/impact_jam.hpp"
+#include "adjoint/impact/pushing_contacts.hpp"
 #include "adjoint/numeric/double_double.hpp"
 
 // Equation 4.4, contacts of one instant together, each with u_n <= 0 before:
@@ -32,8 +33,6 @@
 // `Problem` has the fields of ImpactProblem, a `Bar` those of ImpactProblemDerivative.
 
 namespace carom::adjoint_detail {
-
-using Contacts = std::vector<int>;
 
 // Normals of a list of contacts as columns.
 template <class S, class Problem>
@@ -163,7 +162,7 @@ class Branch {
     const MatrixOf<T> A = valuesOf(MatrixOf<S>(N.transpose() * p.K * N));
     const VectorOf<T> asked = valuesOf(VectorOf<S>(share(p, all).cwiseProduct(u_n)));
     push(p, activeContactsOf<T>(A, asked, !p.driven, p.held));
-    if (!p.driven && !parts(p)) push(p, pushing(p, share(p, all), A, asked));
+    if (!p.driven && !parts(p)) push(p, pushingByProgram<T, S>(p, share(p, all), A, asked));
     Contacts loaded;
     for (const int k : normal_active)
       if (isConstrained(p, k) || isLoaded(p, k)) loaded.push_back(k);
@@ -179,23 +178,6 @@ class Branch {
     fastest_ = T(0);
     for (const VectorOf<T>& v : {valuesOf(p.u), valuesOf(b)})
       for (Index i = 0; i < v.size(); ++i) fastest_ = std::max(fastest_, v[i] < T(0) ? T(-v[i]) : v[i]);
-  }
-  // Far more contacts than a body has ways to move lose the active set; without friction they are a cone program, too.
-  template <class Problem>
-  static Contacts pushing(const Problem& p, const VectorOf<S>& shares, const MatrixOf<T>& A, const VectorOf<T>& b) {
-    const std::size_t n = p.normal.size();
-    ConeProgramOf<T> q{valuesOf(p.K),           valuesOf(p.u), {}, std::vector<T>(n, T(0)),
-                       std::vector<T>(n, T(0)), p.held,        {}, {}};
-    q.free.resize(n);
-    for (std::size_t k = 0; k < n; ++k) {
-      q.b.template segment<3>(3 * static_cast<Index>(k)) *= valueOf(shares[static_cast<Index>(k)]);
-      q.normal.push_back(valuesOf(p.normal[k]));
-    }
-    const ConePointOf<T> at = solveConeProgram<T>(q);
-    VectorOf<T> y = VectorOf<T>::Zero(static_cast<Index>(n));
-    for (std::size_t k = 0; k < n; ++k)
-      if (at.state[k] != ConeState::apex) y[static_cast<Index>(k)] = at.pressure[k];
-    return pushingContactsOf<T>(A, b, y, p.held);
   }
   template <class Problem>
   static VectorOf<S> share(const Problem& p, const Contacts& contacts) {
@@ -215,23 +197,16 @@ class Branch {
   }
   template <class Problem>
   bool jams(const Problem& p) const {
-    const auto n = static_cast<Index>(normal_active.size());
-    Eigen::MatrixXd K(3 * n, 3 * n);
-    Eigen::VectorXd v(3 * n);
+    std::vector<double> friction;
     std::vector<Vec3> normals;
-    std::vector<double> frictions;
-    for (Index i = 0; i < n; ++i) {
-      const int k = normal_active[static_cast<std::size_t>(i)];
-      for (Index j = 0; j < n; ++j) {
-        const MatrixOf<S> block = p.K.template block<3, 3>(3 * k, 3 * normal_active[static_cast<std::size_t>(j)]);
-        for (Index r = 0; r < 3; ++r)
-          for (Index c = 0; c < 3; ++c) K(3 * i + r, 3 * j + c) = rounded(valueOf(block(r, c)));
-      }
-      v.segment<3>(3 * i) = roundedOf(V3<S>(b.template segment<3>(3 * k)));
+    for (int k : normal_active) {
+      friction.push_back(isPulled(p, k) ? 0 : rounded(valueOf(p.pair[static_cast<std::size_t>(k)].friction)));
       normals.push_back(roundedOf(p.normal[static_cast<std::size_t>(k)]));
-      frictions.push_back(isPulled(p, k) ? 0 : rounded(valueOf(p.pair[static_cast<std::size_t>(k)].friction)));
     }
-    return frictionGrows(K, v, normals, frictions);
+    return frictionGrows(roundedAll(p.K), roundedAll(b), normal_active, normals, friction);
+  }
+  static Eigen::MatrixXd roundedAll(const MatrixOf<S>& M) {
+    return M.unaryExpr([](const S& x) { return static_cast<double>(rounded(valueOf(x))); });
   }
   void leaveOutFriction() {
     P = P_N, lowest_e_t = -1;

@@ -170,7 +170,7 @@ TEST(StruckOnFloor, MirrorImagesMirrorAndTheOrderOfBodiesDoesNotMatter) {
   EXPECT_GT(struck, scaled(30));
 }
 
-// What a kinematic body wedges against the floor has no least friction: said, in whatever order, and no impulse is made up.
+// What a kinematic body wedges against the floor has no least friction: that is said, and no impulse is made up.
 TEST(StruckOnFloor, WhatIsWedgedIsSaid) {
   int struck = 0, wedged = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(scaled(40)); ++seed) {
@@ -179,17 +179,18 @@ TEST(StruckOnFloor, WhatIsWedgedIsSaid) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     scene.materials[0].friction = Random(1000 + seed).in(0.05, 1.3);
     ++struck;
-    const double speed = scene.bodies[2].velocity.norm();
+    const double most = 100 * *scene.bodies[1].mass * scene.bodies[2].velocity.norm();
     int said = 0;
     for (const Scene& variant : {scene, inReverse(scene)}) {
       const Motion m = playLasting(variant, 1);
-      if (m.message.find("wedges what it strikes") != std::string::npos) ++said;
+      said += m.message.find("wedges what it strikes") != std::string::npos;
       for (const Event& event : m.events)
-        for (const Contact& c : event.contacts) EXPECT_LE(c.impulse.norm(), 100 * *variant.bodies[static_cast<std::size_t>(bodyNamed(variant, "box"))].mass * speed);
+        for (const Contact& c : event.contacts) EXPECT_LE(c.impulse.norm(), most);
     }
     wedged += said > 0;
   }
   std::printf("%d struck by kinematic boxes, %d wedged\n", struck, wedged);
+  EXPECT_GT(wedged, 0);
 }
 
 }  // namespace
