@@ -19,7 +19,7 @@ constexpr int kJamSteps = 40;
 
 }  // namespace
 
-// min b.X over X = Z y, Z those that move nothing, with mu n.X >= |X_t| at every contact and sum n.X <= 1.
+// min b.X over X = B Z y, Z those that move nothing, with mu n.X >= |X_t| at every contact and sum n.X <= 1.
 bool frictionGrows(const Eigen::MatrixXd& all_K, const Eigen::VectorXd& all_b, const std::vector<int>& contacts, const std::vector<Vec3>& normal,
                    const std::vector<double>& friction) {
   const auto n = static_cast<Index>(normal.size());
@@ -30,37 +30,42 @@ bool frictionGrows(const Eigen::MatrixXd& all_K, const Eigen::VectorXd& all_b, c
     b.segment<3>(3 * i) = all_b.segment<3>(from);
     for (Index j = 0; j < n; ++j) K.block<3, 3>(3 * i, 3 * j) = all_K.block<3, 3>(from, 3 * contacts[static_cast<std::size_t>(j)]);
   }
-  const ThinSvd svd(K);
-  Index rank = 0;
-  while (rank < svd.s.size() && svd.s[rank] > kMovesNothing * svd.s[0]) ++rank;
-  const Eigen::MatrixXd Z = svd.V.rightCols(svd.V.cols() - rank);
-  const double fastest = b.cwiseAbs().maxCoeff();
-  if (Z.cols() == 0 || !(fastest > 0)) return false;
+  // X = B x: along the normal alone where there is no friction, so that the rows below tell all x apart
   std::vector<int> cones;
-  Index rows = 1;
-  for (const double mu : friction) cones.push_back(mu > 0 ? 3 : 1), rows += cones.back();
-  cones.push_back(1);
-  Eigen::MatrixXd D(rows, Z.cols());
-  Eigen::VectorXd a = Eigen::VectorXd::Zero(rows), pushes = Eigen::VectorXd::Zero(Z.cols());
+  for (const double mu : friction) cones.push_back(mu > 0 ? 3 : 1);
+  Index unknowns = 0;
+  for (const int size : cones) unknowns += size;
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(3 * n, unknowns);
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(unknowns), pushes_by = Eigen::VectorXd::Zero(unknowns);
   Index at = 0;
   for (Index k = 0; k < n; ++k) {
-    const Vec3 &axis = normal[static_cast<std::size_t>(k)], across = axis.unitOrthogonal();
-    const double mu = friction[static_cast<std::size_t>(k)];
-    const auto block = Z.middleRows(3 * k, 3);
-    const Eigen::RowVectorXd pressing = axis.transpose() * block;
-    pushes += pressing.transpose();
-    if (!(mu > 0)) {
-      D.row(at++) = pressing;
-      continue;
+    const auto kk = static_cast<std::size_t>(k);
+    const Vec3 &axis = normal[kk], across = axis.unitOrthogonal();
+    B.block<3, 1>(3 * k, at) = axis;
+    pushes_by[at] = 1;
+    if (cones[kk] == 3) {
+      scale[at] = friction[kk];
+      B.block<3, 1>(3 * k, at + 1) = across;
+      B.block<3, 1>(3 * k, at + 2) = axis.cross(across);
     }
-    D.row(at) = mu * pressing;
-    D.row(at + 1) = across.transpose() * block;
-    D.row(at + 2) = axis.cross(across).transpose() * block;
-    at += 3;
+    at += cones[kk];
   }
+  const Eigen::MatrixXd moved = K * B;
+  const ThinSvd svd(moved);
+  Index rank = 0;
+  while (rank < svd.s.size() && svd.s[rank] > kMovesNothing * svd.s[0]) ++rank;
+  const double fastest = b.cwiseAbs().maxCoeff();
+  if (rank >= svd.V.cols() || !(fastest > 0) || !svd.V.allFinite()) return false;
+  const Eigen::MatrixXd Z = svd.V.rightCols(svd.V.cols() - rank);
+  const Index rows = unknowns + 1;
+  cones.push_back(1);
+  Eigen::MatrixXd D(rows, Z.cols());
+  D.topRows(unknowns) = scale.asDiagonal() * Z;
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(rows);
+  const Eigen::VectorXd pushes = Z.transpose() * pushes_by;
   D.row(rows - 1) = -pushes.transpose();
   a[rows - 1] = 1;
-  const Eigen::VectorXd cost = Z.transpose() * b / fastest;
+  const Eigen::VectorXd cost = (B * Z).transpose() * b / fastest;
   InteriorPoint point(D, a, cost, cones);
   for (int i = 0; i < kJamSteps; ++i) {
     point.step();
