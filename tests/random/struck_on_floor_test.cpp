@@ -167,7 +167,7 @@ TEST(StruckOnFloor, MirrorImagesMirrorAndTheOrderOfBodiesDoesNotMatter) {
     }
   }
   std::printf("%d struck, %d end early\n", struck, ended);
-  EXPECT_GT(struck, scaled(30));
+  EXPECT_GE(struck, scaled(30));
 }
 
 // What a kinematic body wedges against the floor has no least friction: that is said, and no impulse is made up.
@@ -190,7 +190,7 @@ TEST(StruckOnFloor, WhatIsWedgedIsSaid) {
     wedged += said > 0;
   }
   std::printf("%d struck by kinematic boxes, %d wedged\n", struck, wedged);
-  EXPECT_GT(wedged, 0);
+  EXPECT_GE(wedged, struck / 15);
 }
 
 }  // namespace
