@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/numeric/illinois.hpp"
 #include "ode_bridge/depth.hpp"
 #include "ode_bridge/nearest.hpp"
 #include "ode_bridge/touching.hpp"
@@ -16,6 +17,7 @@
 
 namespace carom::ode_bridge_detail {
 
+using adjoint_detail::IllinoisEnds;
 using adjoint_detail::Nearest;
 using adjoint_detail::NearestInTime;
 
@@ -180,15 +182,13 @@ class LeastDistance {
     return std::abs(p.rate) < std::abs(q.rate);
   }
 
-  // Between a place where the distance falls towards the other and one where it does not: where its rate is 0, by
-  // regula falsi that halves the weight of an end that stays (Illinois).
+  // Between a place where the distance falls towards the other and one where it does not: where its rate is 0.
   NearestInTime bottom(NearestInTime a, NearestInTime b) const {
     NearestInTime best = isLower(a, b) ? a : b;
-    double fa = a.rate, fb = b.rate;
-    int stays = 0;
-    for (int round = 0; round < kMostRounds && fb != 0; ++round) {
-      double t = a.time - fa * (b.time - a.time) / (fb - fa);
-      if (round % 8 == 7 || !std::isfinite(t) || fa * fb > 0) t = a.time + 0.5 * (b.time - a.time);
+    IllinoisEnds f{a.rate, b.rate};
+    for (int round = 0; round < kMostRounds && f.b != 0; ++round) {
+      double t = a.time - f.a * (b.time - a.time) / (f.b - f.a);
+      if (round % 8 == 7 || !std::isfinite(t) || f.a * f.b > 0) t = a.time + 0.5 * (b.time - a.time);
       if (!((t > a.time && t < b.time) || (t < a.time && t > b.time))) break;
       if (hasDepth() && a.nearest.features != b.nearest.features) {
         // the rate may jump from one pair of features to another
@@ -203,13 +203,9 @@ class LeastDistance {
       // beyond a hill that is as high there is a valley before it
       if ((here.rate < 0) == (a.rate < 0) && here.rate != 0 &&
           here.nearest.gap <= a.nearest.gap + kSameGap * (std::abs(a.nearest.gap) + sizes())) {
-        a = here, fa = here.rate;
-        if (stays == 1) fb *= 0.5;
-        stays = 1;
+        a = here, f.moveA(here.rate);
       } else {
-        b = here, fb = here.rate;
-        if (stays == -1) fa *= 0.5;
-        stays = -1;
+        b = here, f.moveB(here.rate);
       }
     }
     // a jump that no crossing of two explains
@@ -226,24 +222,20 @@ class LeastDistance {
       const Placed pa(solid_a_, arc_a_, t), pb(solid_b_, arc_b_, t);
       return contactAt(pa, pb, f).gap - contactAt(pa, pb, g).gap;
     };
-    double s = a.time, t = b.time, ds = difference(s), dt = difference(t);
-    if (!(ds >= 0 && dt <= 0 && ds > dt)) return std::nullopt;
-    int stays = 0;
+    double s = a.time, t = b.time;
+    IllinoisEnds d{difference(s), difference(t)};
+    if (!(d.a >= 0 && d.b <= 0 && d.a > d.b)) return std::nullopt;
     for (int round = 0; round < kMostRounds; ++round) {
-      double u = s + ds * (t - s) / (ds - dt);
+      double u = s + d.a * (t - s) / (d.a - d.b);
       if (round % 8 == 7 || !std::isfinite(u)) u = s + 0.5 * (t - s);
       if (!((u > s && u < t) || (u < s && u > t))) break;
       const double du = difference(u);
       if (!std::isfinite(du)) return std::nullopt;
       if (du > 0) {
-        s = u, ds = du;
-        if (stays == 1) dt *= 0.5;
-        stays = 1;
+        s = u, d.moveA(du);
       } else {
-        t = u, dt = du;
+        t = u, d.moveB(du);
         if (du == 0) break;
-        if (stays == -1) ds *= 0.5;
-        stays = -1;
       }
     }
     if (std::abs(difference(s)) < std::abs(difference(t))) t = s;

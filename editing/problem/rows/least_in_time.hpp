@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/numeric/illinois.hpp"
 
 namespace carom::editing_detail {
 
@@ -102,27 +103,21 @@ class LeastInTime {
     return std::abs(p.rate) < std::abs(q.rate);
   }
 
-  // Between a place from which it falls towards the other and one from which it does not: where the rate is 0, by regula
-  // falsi that halves the weight of an end that stays.
+  // Between a place from which it falls towards the other and one from which it does not: where the rate is 0.
   ValueInTime bottom(ValueInTime a, ValueInTime b) const {
     ValueInTime best = isLower(a, b) ? a : b;
-    double fa = a.rate, fb = b.rate;
-    int stays = 0;
-    for (int round = 0; round < kMostRounds && fb != 0; ++round) {
-      double t = a.time - fa * (b.time - a.time) / (fb - fa);
-      if (round % 8 == 7 || !std::isfinite(t) || fa * fb > 0) t = a.time + 0.5 * (b.time - a.time);
+    adjoint_detail::IllinoisEnds f{a.rate, b.rate};
+    for (int round = 0; round < kMostRounds && f.b != 0; ++round) {
+      double t = a.time - f.a * (b.time - a.time) / (f.b - f.a);
+      if (round % 8 == 7 || !std::isfinite(t) || f.a * f.b > 0) t = a.time + 0.5 * (b.time - a.time);
       if (!((t > a.time && t < b.time) || (t < a.time && t > b.time))) break;
       const ValueInTime here = read_(t);
       if (isLower(here, best)) best = here;
       // beyond a hill that is as high there is a valley before it
       if ((here.rate < 0) == (a.rate < 0) && here.rate != 0 && here.value <= a.value + same_) {
-        a = here, fa = here.rate;
-        if (stays == 1) fb *= 0.5;
-        stays = 1;
+        a = here, f.moveA(here.rate);
       } else {
-        b = here, fb = here.rate;
-        if (stays == -1) fa *= 0.5;
-        stays = -1;
+        b = here, f.moveB(here.rate);
       }
     }
     return best;

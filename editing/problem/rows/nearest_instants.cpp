@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "adjoint/numeric/illinois.hpp"
+
 namespace carom::editing_detail {
 namespace {
 
@@ -72,31 +74,26 @@ void addValleys(const ConstraintSet& constraints, const Motion& motion, const Fr
   }
 }
 
-/// To where the rate is 0, by regula falsi that halves the weight of an end that stays; a look at an end of a part from
+/// To where the rate is 0; a look at an end of a part from
 /// which the miss rises stays as it is.
 Valley bottomOf(const ConstraintSet& constraints, const Motion& motion, int constraint, const Valley& valley) {
   const double beside = valley.look.rate > 0 ? valley.before : valley.after;
   if (valley.look.rate == 0 || beside == valley.look.time) return valley;
   ValueInTime a = valley.look, b = constraints.missInTime(motion, constraint, beside);
   if (!(a.rate * b.rate < 0)) return valley;
-  double fa = a.rate, fb = b.rate;
+  adjoint_detail::IllinoisEnds f{a.rate, b.rate};
   ValueInTime best = a;
-  int stays = 0;
   for (int round = 0; round < kMostRounds; ++round) {
-    double t = a.time - fa * (b.time - a.time) / (fb - fa);
+    double t = a.time - f.a * (b.time - a.time) / (f.b - f.a);
     if (round % 4 == 3 || !(std::min(a.time, b.time) < t && t < std::max(a.time, b.time))) t = a.time + 0.5 * (b.time - a.time);
     if (!(std::min(a.time, b.time) < t && t < std::max(a.time, b.time))) break;
     const ValueInTime here = constraints.missInTime(motion, constraint, t);
     if (std::abs(here.rate) < std::abs(best.rate)) best = here;
     if (here.rate == 0) break;
     if ((here.rate > 0) == (a.rate > 0)) {
-      a = here, fa = here.rate;
-      if (stays == 1) fb *= 0.5;
-      stays = 1;
+      a = here, f.moveA(here.rate);
     } else {
-      b = here, fb = here.rate;
-      if (stays == -1) fa *= 0.5;
-      stays = -1;
+      b = here, f.moveB(here.rate);
     }
   }
   return {Instant::at(best.time), best, best.time, best.time};
