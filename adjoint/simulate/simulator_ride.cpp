@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 
 #include "adjoint/base/refuse.hpp"
@@ -70,13 +71,14 @@ bool Simulator::endsRide(int body) {
     for (const int member : part) predictBody(member, now);
     return false;
   }
-  const Contact* on_carrier = nullptr;
-  for (const Contact& c : held)
-    if (joinsMoved(c)) on_carrier = &c;
-  const Carrier& carrier = arcOf(body).trajectory().ride()->carrier();
+  const auto joins = std::ranges::find_if(held, [&](const Contact& c) { return joinsMoved(c); });
+  const std::string& carrier = scene_.bodies[index(arcOf(body).trajectory().ride()->carrier().body)].name;
+  const bool several = joins != held.end();
+  const std::string rests = several ? namesOf(joins->a, joins->b) + " rest on each other" : "'" + scene_.bodies[index(body)].name + "' rests";
+  const char* const leaves = several ? " s, where they come to its end" : " s, where it comes to the end of that";
+  const char* const slips = several ? " s, where it no longer holds them" : " s, where that no longer holds it";
   finish(MotionStatus::unresolved_contact, now,
-         textOf(10, namesOf(on_carrier->a, on_carrier->b), " rest on each other, on '", scene_.bodies[index(carrier.body)].name, "', until t = ", now,
-                ride && ride->leaves ? " s, where they come to its end" : " s, where it no longer holds them", ", after ", eventsSoFar(),
+         textOf(10, rests, several ? ", on '" : " on '", carrier, "', until t = ", now, ride && ride->leaves ? leaves : slips, ", after ", eventsSoFar(),
                 "; motion on bodies that can move is not modelled yet, so the motion ends there"));
   return true;
 }

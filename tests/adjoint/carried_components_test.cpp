@@ -157,6 +157,23 @@ TEST(CarriedComponents, ATiltingPlateHoldsThemAsLongAsFrictionDoes) {
   }
 }
 
+// Two balls knock the upper box off from below: what is left alone rides to its own limit, g s - w^2 x at mu of what presses.
+TEST(CarriedComponents, WhatIsLeftAloneIsNamedWhereItSlips) {
+  const double w = 0.3, mu = 0.4, z = 0.2;
+  Scene scene = twoOn(kinematicPlate(Vec3::Zero(), {0, w, 0}), 0, mu);
+  scene.bodies[1].position.x() = scene.bodies[2].position.x() = 0;
+  std::get<Box>(scene.bodies[2].shape).size.y() = 1.4;
+  scene.bodies[1].mass = 10, scene.bodies[2].mass = 0.2;
+  for (std::size_t b = 1; b < 3; ++b) scene.bodies[b].velocity = Vec3(0, w, 0).cross(Vec3(scene.bodies[b].position - scene.bodies[0].position));
+  for (const double side : {-0.6, 0.6}) scene.bodies.push_back(makeBall(side < 0 ? "left" : "right", 0.05, {0, side, 0.1}, {0.03, 0, 9}));
+  scene.bodies[3].mass = scene.bodies[4].mass = 1;
+  const Motion m = playLasting(scene, 2);
+  EXPECT_EQ(m.status, MotionStatus::unresolved_contact);
+  EXPECT_GT(m.stateAt(2, m.end).position.z(), 0.5);
+  EXPECT_NE(m.message.find("'low' rests on 'plate'"), std::string::npos) << m.message;
+  expectEntries(m.end, (std::atan(mu) - std::asin(w * w * mu * z / kG / std::hypot(1, mu))) / w, 1e-8, "slips");
+}
+
 // Round and round, where friction is enough all the way: the tilt of the table against gravity turns with it.
 TEST(CarriedComponents, ATableThatIsNotLevelTurnsForEver) {
   Scene scene = twoOn(kinematicPlate(Vec3::Zero(), {0, 0, 2}), 0, 0.5);
