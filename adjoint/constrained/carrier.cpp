@@ -76,10 +76,10 @@ Carried carriedBy(const Motion& motion, const std::vector<const Contact*>& outer
       stands = true;
       continue;
     }
-    const Support support = supportOf(motion, body, time);
+    if (carried.by && carried.by->body != body) return {false, std::nullopt};
+    const Support support = carried.by ? carried.by->support : supportOf(motion, body, time);
     const bool uniform = !support.isGiven() && !(support.moves() && support.has_belt) && support.surface_angular_velocity.isZero(0);
-    if (!uniform || (carried.by && carried.by->body != body)) return {false, std::nullopt};
-    if (!support.moves() && !liesOnFaceOf(motion, *c, body, time)) return {false, std::nullopt};
+    if (!uniform || (!support.moves() && !liesOnFaceOf(motion, *c, body, time))) return {false, std::nullopt};
     const Carrier here{body, time, support, c->at.normal};
     if (!carried.by) {
       carried.by = here;

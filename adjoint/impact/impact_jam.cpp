@@ -16,6 +16,8 @@ constexpr double kMovesNothing = 1e-12;
 // By which the velocities are to oppose them, as a share of the fastest, and how far outside of the cones is rounding.
 constexpr double kOpposes = 1e-6, kOutside = 1e-9;
 constexpr int kJamSteps = 40;
+// Where the least value may fall by no more than this, far below kOpposes, it is known.
+constexpr double kSettled = 1e-8;
 
 }  // namespace
 
@@ -71,7 +73,11 @@ bool frictionGrows(const Eigen::MatrixXd& all_K, const Eigen::VectorXd& all_b, c
     point.step();
     const Eigen::VectorXd& y = point.unknowns();
     if (!y.allFinite() || !std::isfinite(point.gap())) return false;
-    if (!(cost.dot(y) < -kOpposes)) continue;
+    if (!(cost.dot(y) < -kOpposes)) {
+      const double lacks = point.gap() * static_cast<double>(cones.size()) + point.unbalanced();
+      if (lacks < kSettled) return false;  // no X is opposed by more than that
+      continue;
+    }
     const Eigen::VectorXd s = D * y + a;
     bool within = true;
     Index row = 0;
