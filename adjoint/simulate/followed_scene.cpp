@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/simulate/followed_scene.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "adjoint/base/errors.h"
 #include "adjoint/flight/flight_symmetric.hpp"
+#include "adjoint/flight/trajectory.hpp"
 
 namespace carom::adjoint_detail {
 
@@ -31,6 +33,12 @@ Plan planFor(const Motion& like, const Scene& scene, const std::vector<BodyModel
     plan.bodies[b] = everything.bodies[b];
   }
   return plan;
+}
+
+bool joinsGroup(const Motion& motion, const Event& event) {
+  return std::ranges::any_of(event.participants, [&](const Participant& p) {
+    return motion.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.next())].trajectory().group() != nullptr;
+  });
 }
 
 }  // namespace carom::adjoint_detail

@@ -102,8 +102,7 @@ class Follower {
       if (c.captured || c.kept) c.pair.elasticity = 0;
       if (was.kind == EventKind::placed) c.pair.friction = 0;
     }
-    const auto joins = [&](const Participant& p) { return like_.world_lines[index(p.body)].arcs[index(p.next())].trajectory().group(); };
-    if (std::ranges::any_of(was.participants, joins)) return fail(was, "bodies move on each other from there");
+    if (joinsGroup(like_, was)) return fail(was, "bodies move on each other from there");
     if (was.kind == EventKind::placed) return meet(was, 0);
     if (landsFlat(like_, was)) return fail(was, "a rim became flat there");
     if (was.kind == EventKind::transition) return followTransition(was);
@@ -299,6 +298,7 @@ class Follower {
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order, {}, [&](int e) { return motion_.events[index(e)].time; });
     std::vector<Event> sorted;
+    sorted.reserve(order.size());
     for (int e : order) {
       place_of[index(e)] = static_cast<int>(sorted.size());
       sorted.push_back(std::move(motion_.events[index(e)]));

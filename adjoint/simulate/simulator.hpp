@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -43,6 +44,12 @@ struct Attempts {
   std::vector<int> met;   ///< bodies
   std::size_t steps = 0;  ///< of work
 };
+
+/// The place of a body in a list in increasing order; -1: it is not there.
+inline int placeIn(const std::vector<int>& bodies, int body) {
+  const auto at = std::ranges::lower_bound(bodies, body);
+  return at != bodies.end() && *at == body ? static_cast<int>(at - bodies.begin()) : -1;
+}
 
 /// Whether two contacts are between the same features of the same bodies.
 inline bool isSameContact(const Contact& c, const Contact& d) { return c.a == d.a && c.b == d.b && c.features == d.features; }
@@ -187,6 +194,7 @@ class Simulator {
   void chooseRest(const std::vector<int>& touching, const std::vector<Contact>& closed);
   void holdAtRest(RestingComponent& rest);
   void rest(std::size_t participant);
+  void goOn(std::size_t participant, Arc arc, std::vector<Contact> held);
   std::optional<Ride> rideOf(const SupportedComponent& component, const std::vector<const Contact*>& on) const;
   bool endsRide(int body);
   bool goTogether(int a, int b);
@@ -285,6 +293,8 @@ class Simulator {
   void finish(MotionStatus status, double end, std::string message);
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  // Of a body that takes part in the draft.
+  std::size_t participantIn(int body) const { return static_cast<std::size_t>(std::ranges::find(bodies_, body) - bodies_.begin()); }
   Arc& arcOf(int body) { return *arc_[index(body)]; }
   /// Steps of work that went into what is known of an arc.
   static std::size_t workIn(const Arc& arc) {
@@ -293,8 +303,6 @@ class Simulator {
   }
   // Whether impacts move a body. They neither join through one that they do not move nor change its path.
   bool isFixed(int body) const { return arc_[index(body)]->stays(); }
-  // Whether it never moves, and nor does its surface.
-  bool isStill(int body) const { return isFixed(body) && !scene_.bodies[index(body)].surfaceMoves(); }
   bool joinsMoved(const Contact& c) const { return isMoved(c.a) && isMoved(c.b); }
   bool isMoved(int body) const {
     const BodyModel& model = (*motion_.models)[index(body)];

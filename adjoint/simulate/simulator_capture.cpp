@@ -55,12 +55,9 @@ void Simulator::solveLaw() {
 }
 
 State Simulator::stateAfter(int body) const {
-  const Participant* p = draft_.event.find(body);
-  if (!p) return [&] {
-    const Arc& arc = motion_.world_lines[index(body)].arcs.back();
-    return arc.trajectory().ride() || drivesContacts(motion_, body) ? arc.stateAt(draft_.event.time) : arc.startState();
-  }();
-  return draft_.after[static_cast<std::size_t>(p - draft_.event.participants.data())];
+  if (const Participant* p = draft_.event.find(body)) return draft_.after[static_cast<std::size_t>(p - draft_.event.participants.data())];
+  const Arc& arc = motion_.world_lines[index(body)].arcs.back();
+  return arc.trajectory().ride() || drivesContacts(motion_, body) ? arc.stateAt(draft_.event.time) : arc.startState();
 }
 
 // d^2(gap)/dt^2 after the event, while contacts with fixed and kinematic bodies that part without speed stay closed.

@@ -17,13 +17,9 @@ using Member = SupportedComponent::Member;
 
 // The parts of `bodies`, in increasing order, that these contacts connect, each in increasing order.
 std::vector<std::vector<int>> connectedBy(const std::vector<int>& bodies, const std::vector<const Contact*>& contacts) {
-  const auto placeOf = [&](int body) -> std::ptrdiff_t {
-    const auto at = std::ranges::lower_bound(bodies, body);
-    return at != bodies.end() && *at == body ? at - bodies.begin() : -1;
-  };
   UnionFind sets(bodies.size());
   for (const Contact* c : contacts)
-    if (const std::ptrdiff_t a = placeOf(c->a), b = placeOf(c->b); a >= 0 && b >= 0)
+    if (const int a = placeIn(bodies, c->a), b = placeIn(bodies, c->b); a >= 0 && b >= 0)
       sets.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
   std::vector<std::vector<int>> parts(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) parts[sets.find(i)].push_back(bodies[i]);
@@ -237,15 +233,14 @@ void Simulator::holdAtRest(RestingComponent& rest) {
   std::ranges::copy_if(rest.on, std::back_inserter(on), [&](const Contact& c) { return comesToRest(c.a) || comesToRest(c.b); });
   std::erase_if(rest.members, [&](const Member& m) { return isSupport(m.body); });
   if (std::ranges::any_of(on, [](const Contact& c) { return !c.held; })) closeGaps(motion_, rest.members, on, draft_.event.time);
-  const auto participantOf = [&](int body) { return static_cast<std::size_t>(std::ranges::find(bodies_, body) - bodies_.begin()); };
   for (const Member& m : rest.members) {
-    RestingMember& member = draft_.resting[participantOf(m.body)].emplace(RestingMember{m.state, {}, rest.opposed, rest.ride});
+    RestingMember& member = draft_.resting[participantIn(m.body)].emplace(RestingMember{m.state, {}, rest.opposed, rest.ride});
     std::ranges::copy_if(on, std::back_inserter(member.held), [&](const Contact& c) { return c.a == m.body || c.b == m.body; });
   }
   for (const Contact& c : on)
     for (int body : {c.a, c.b})
       if (isMoved(body) && isSupport(body)) {
-        BodyContactState& state = draft_.contact_state[participantOf(body)];
+        BodyContactState& state = draft_.contact_state[participantIn(body)];
         state.held.push_back(c);
         if (rest.ride) state.transition = rest.ride->until;
       }
@@ -255,21 +250,20 @@ void Simulator::rest(std::size_t participant) {
   RestingMember& member = *draft_.resting[participant];
   const int body = bodies_[participant];
   if (member.ride) {
-    Arc arc = rideArc(motion_, body, member.state, member.ride->carrier, !member.opposed);
-    draft_.after[participant] = arc.startState();
-    draft_.contact_state[participant].held = std::move(member.held);
     draft_.contact_state[participant].transition = member.ride->until;
-    draft_.arcs.push_back(std::move(arc));
-    in_draft_[index(body)] = static_cast<int>(participant);
-    any_lasted_ = true;
-    return;
+    return goOn(participant, rideArc(motion_, body, member.state, member.ride->carrier, !member.opposed), std::move(member.held));
   }
   const ContactChoice choice = restPathOf(motion_, body, member.state, pointersTo(member.held), !member.opposed, draft_.event.time);
   PathArc made = makePathArc(motion_, choice, draft_.event.time);
-  draft_.after[participant] = choice.start;
-  draft_.contact_state[participant].held = std::move(made.held);
-  draft_.arcs.push_back(std::move(made.arc));
-  in_draft_[index(body)] = static_cast<int>(participant);
+  goOn(participant, std::move(made.arc), std::move(made.held));
+}
+
+// In lasting contact, on an arc from the event on.
+void Simulator::goOn(std::size_t participant, Arc arc, std::vector<Contact> held) {
+  draft_.after[participant] = arc.startState();
+  draft_.contact_state[participant].held = std::move(held);
+  draft_.arcs.push_back(std::move(arc));
+  in_draft_[index(bodies_[participant])] = static_cast<int>(participant);
   any_lasted_ = true;
 }
 
@@ -282,11 +276,8 @@ void Simulator::keep(std::size_t participant) {
 
 // d^2/dt^2 of bodies that lie on each other, as after the event: none of those that do not.
 std::optional<FreeAcceleration> Simulator::componentAcceleration(int body) const {
-  if (const Participant* p = draft_.event.find(body); p && p->stays) {
-    FreeAcceleration held;
-    if (const RidePath* ride = arc_[index(body)]->trajectory().ride()) held.v = ride->carrier().at(draft_.event.time).accelerationAt(p->before.x);
-    return held;
-  }
+  if (const Participant* p = draft_.event.find(body); p && p->stays)
+    return FreeAcceleration{arc_[index(body)]->rateAt(draft_.event.time, p->before).v, Vec3::Zero()};
   const auto joins = [&](const Contact& c) { return c.lasts && joinsMoved(c); };
   if (std::ranges::none_of(draft_.event.contacts, joins)) return std::nullopt;
   const std::vector<int> bodies = movedBodies(false);
@@ -295,10 +286,13 @@ std::optional<FreeAcceleration> Simulator::componentAcceleration(int body) const
     std::vector<Contact> closed;
     std::ranges::copy_if(all, std::back_inserter(closed), [&](const Contact& c) { return isOf(touching, c); });
     if (!has(touching, body) || std::ranges::none_of(closed, joins)) continue;
+    if (const auto rest = restOf(touching, closed, 0)) {
+      if (!rest->ride) return FreeAcceleration();
+      return FreeAcceleration{rest->ride->carrier.at(draft_.event.time).accelerationAt(stateAfter(body).x), Vec3::Zero()};
+    }
     const SupportedComponent component = componentOf(touching, closed);
-    const auto at = static_cast<std::size_t>(std::ranges::find(component.members(), body, &Member::body) - component.members().begin());
-    if (restOf(touching, closed, 0)) return component.heldAcceleration(at);
-    return component.pressedAccelerations()[at];
+    const auto at = std::ranges::find(component.members(), body, &Member::body) - component.members().begin();
+    return component.pressedAccelerations()[static_cast<std::size_t>(at)];
   }
   return std::nullopt;
 }

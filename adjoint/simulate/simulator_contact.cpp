@@ -215,14 +215,10 @@ void Simulator::chooseArc(std::size_t participant) {
       giveUp("contact", event.contacts[0].a, event.contacts[0].b, event.time, error);
     }
   }();
-  contact_state.held = std::move(made.held);
   contact_state.why = made.transition;
   if (contact_state.why.cause != TransitionCause::none)
     contact_state.transition = made.arc.isIntegrated() ? made.arc.knownUntil() : event.time + contact_state.why.elapsed;
-  after = choice.start;
-  draft_.arcs.push_back(std::move(made.arc));
-  in_draft_[index(body)] = static_cast<int>(participant);
-  any_lasted_ = true;
+  goOn(participant, std::move(made.arc), std::move(made.held));
 }
 
 // What touches a body where a contact of it leaves its feature: what it has a little later on the same path.

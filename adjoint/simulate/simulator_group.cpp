@@ -19,11 +19,6 @@ constexpr std::size_t kMostMembers = 8, kMostContacts = 36;
 // Where a slip ends, all that are slower than this share of the unit of speed end with it.
 constexpr double kStopTogether = 1e-6;
 
-int memberIn(const std::vector<int>& bodies, int body) {
-  const auto at = std::ranges::lower_bound(bodies, body);
-  return at != bodies.end() && *at == body ? static_cast<int>(at - bodies.begin()) : -1;
-}
-
 }  // namespace
 
 GroupScene Simulator::groupScene(const std::vector<int>& members, const std::vector<Contact>& closed) const {
@@ -46,8 +41,8 @@ GroupScene Simulator::groupScene(const std::vector<int>& members, const std::vec
   }
   scene.speed = speed;
   for (const Contact& c : closed) {
-    const bool inside = memberIn(members, c.a) >= 0 && memberIn(members, c.b) >= 0;
-    scene.with.push_back(inside ? Support() : supportOf(motion_, memberIn(members, c.a) >= 0 ? c.b : c.a, scene.time));
+    const bool inside = placeIn(members, c.a) >= 0 && placeIn(members, c.b) >= 0;
+    scene.with.push_back(inside ? Support() : supportOf(motion_, placeIn(members, c.a) >= 0 ? c.b : c.a, scene.time));
   }
   return scene;
 }
@@ -70,7 +65,7 @@ void Simulator::joinGroups(const std::vector<int>& touching, const std::vector<C
   for (const Contact& c : closed) {
     GroupContact& of = candidates.emplace_back();
     of.a = c.a, of.b = c.b, of.features = c.features, of.friction = c.pair.friction;
-    of.member_a = memberIn(touching, c.a), of.member_b = memberIn(touching, c.b);
+    of.member_a = placeIn(touching, c.a), of.member_b = placeIn(touching, c.b);
   }
   GroupHint hint;
   hint.no_slip = std::max(hintOf(closed).no_slip, leastSlip(scene_.gravity.norm(), scene.length));
@@ -101,10 +96,10 @@ void Simulator::beginGroup(const std::vector<int>& members, const std::vector<Co
   std::vector<GroupContact> contacts;
   for (std::size_t i = 0; i < modes.held.size(); ++i) {
     const Contact& c = closed[modes.held[i]];
-    if (memberIn(members, c.a) < 0 && memberIn(members, c.b) < 0) continue;
+    if (placeIn(members, c.a) < 0 && placeIn(members, c.b) < 0) continue;
     own.push_back(c);
     contacts.push_back(modes.contacts[i]);
-    contacts.back().member_a = memberIn(members, c.a), contacts.back().member_b = memberIn(members, c.b);
+    contacts.back().member_a = placeIn(members, c.a), contacts.back().member_b = placeIn(members, c.b);
   }
   GroupScene scene = groupScene(members, own);
   std::vector<State> states;
@@ -118,8 +113,7 @@ void Simulator::beginGroup(const std::vector<int>& members, const std::vector<Co
     giveUp("contact", own.front().a, own.front().b, draft_.event.time, error);
   }
   for (std::size_t slot = 0; slot < members.size(); ++slot) {
-    const auto participant = static_cast<std::size_t>(std::ranges::find(bodies_, members[slot]) - bodies_.begin());
-    GroupMembership& of = draft_.grouped[participant].emplace();
+    GroupMembership& of = draft_.grouped[participantIn(members[slot])].emplace();
     of.path = path, of.slot = static_cast<int>(slot);
     std::ranges::copy_if(own, std::back_inserter(of.held), [&](const Contact& c) { return c.a == members[slot] || c.b == members[slot]; });
     if (changesTooOften(members[slot])) endBeyond(of.held.front(), "their contact modes change more than 8 times in one instant");
@@ -132,13 +126,9 @@ void Simulator::followGroup(std::size_t participant) {
   const State& start = of.path->startStates()[static_cast<std::size_t>(of.slot)];
   Arc arc(motion_.modelOf(body), motion_.plan.bodies[index(body)].tier, of.path, draft_.event.time, start, of.slot);
   BodyContactState& state = draft_.contact_state[participant];
-  state.held = std::move(of.held);
   state.steps = arc.series();
   if (of.path->ending()) state.transition = of.path->knownUntil();
-  draft_.after[participant] = start;
-  draft_.arcs.push_back(std::move(arc));
-  in_draft_[index(body)] = static_cast<int>(participant);
-  any_lasted_ = true;
+  goOn(participant, std::move(arc), std::move(of.held));
 }
 
 // What one member has extended is known to all of them.

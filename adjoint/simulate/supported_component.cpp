@@ -118,12 +118,6 @@ double SupportedComponent::spinOf(std::size_t member) const {
   return ((*motion_.models)[asIndex(m.body)].inverseInertiaWorld(m.state.q.toRotationMatrix()) * m.state.L - frame_.w).norm();
 }
 
-FreeAcceleration SupportedComponent::heldAcceleration(std::size_t member) const {
-  FreeAcceleration held;
-  if (carried_.by) held.v = frame_.accelerationAt(members_[member].state.x);
-  return held;
-}
-
 std::vector<const Contact*> SupportedComponent::pressed() const {
   std::vector<const Contact*> out;
   for (std::size_t k = 0; k < closed_.size(); ++k)

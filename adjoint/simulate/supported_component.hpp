@@ -40,7 +40,6 @@ class SupportedComponent {
   const Carried& carried() const { return carried_; }
   /// Up to when, at the latest `until`, these contacts hold the bodies on their carrier: the loads turn in its frame, s.
   double heldUntil(const std::vector<const Contact*>& contacts, double until) const;
-  FreeAcceleration heldAcceleration(std::size_t member) const;  ///< of what is held
 
   double reachOf(std::size_t member) const { return reach_[member]; }  ///< the longest arm of a contact of it, m
   double speedOf(std::size_t member) const;  ///< m/s, and
