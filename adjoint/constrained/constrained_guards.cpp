@@ -10,12 +10,10 @@ bool isLength(const ConstrainedGuard& guard) {
 
 double forceUnit(const ConstrainedScene& scene) { return scene.model->mass * scene.speed * scene.speed / scene.length; }
 
-double borderValue(const ConstrainedGuard& guard, const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts,
-                   const Pose& own, double t, const ContactInstant<double>& c) {
-  const FeatureLimit& limit = guard.border;
-  const PersistentContact& held = contacts[static_cast<std::size_t>(guard.contact)];
-  const Pose pose = limit.body == held.with ? scene.with[static_cast<std::size_t>(guard.contact)].poseAt(t) : own;
-  const Vec3 at = pose.R.transpose() * (own.x + c.r - pose.x);
+}  // namespace
+
+double borderValue(const FeatureLimit& limit, const Pose& pose, const Vec3& point, const Vec3& n) {
+  const Vec3 at = pose.R.transpose() * (point - pose.x);
   double value = 0;
   if (limit.radius > 0) {
     const Vec3 to = at - (limit.border + limit.radius * limit.point_weight);
@@ -23,11 +21,17 @@ double borderValue(const ConstrainedGuard& guard, const ConstrainedScene& scene,
   } else if (!limit.point_weight.isZero(0)) {
     value = limit.point_weight.dot(at - limit.border);
   }
-  const Vec3 n = held.is_first ? c.n : Vec3(-c.n);
   return value + limit.normal_weight.dot(pose.R.transpose() * n);
 }
 
-}  // namespace
+void addGuards(int contact, ContactMode mode, double friction, std::vector<FeatureLimit> limits, std::vector<ConstrainedGuard>& guards) {
+  guards.push_back({TransitionCause::lifts, contact, -1, {}});
+  if (mode == ContactMode::sticks) guards.push_back({TransitionCause::slips, contact, -1, {}});
+  if (mode == ContactMode::slides && friction > 0) guards.push_back({TransitionCause::sticks, contact, -1, {}});
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    if (!limits[i].point_weight.isZero(0) || limits[i].rolls_over)
+      guards.push_back({TransitionCause::leaves, contact, static_cast<int>(i), std::move(limits[i])});
+}
 
 std::vector<ConstrainedGuard> guardsOf(const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts, const State& start,
                                        double t) {
@@ -36,17 +40,11 @@ std::vector<ConstrainedGuard> guardsOf(const ConstrainedScene& scene, const std:
   const Pose own{start.x, scene.model->shapeToWorld(start.q.toRotationMatrix())};
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const PersistentContact& c = contacts[k];
-    const int contact = static_cast<int>(k);
-    guards.push_back({TransitionCause::lifts, contact, -1, {}});
-    if (c.mode == ContactMode::sticks) guards.push_back({TransitionCause::slips, contact, -1, {}});
-    if (c.mode == ContactMode::slides && c.friction > 0) guards.push_back({TransitionCause::sticks, contact, -1, {}});
-    if (!bodies) continue;
-    std::vector<FeatureLimit> limits =
-        c.is_first ? bodies->limits(scene.body, c.with, c.features, own, scene.with[k].poseAt(t))
-                   : bodies->limits(c.with, scene.body, c.features, scene.with[k].poseAt(t), own);
-    for (std::size_t i = 0; i < limits.size(); ++i)
-      if (!limits[i].point_weight.isZero(0) || limits[i].rolls_over)
-        guards.push_back({TransitionCause::leaves, contact, static_cast<int>(i), std::move(limits[i])});
+    std::vector<FeatureLimit> limits;
+    if (bodies)
+      limits = c.is_first ? bodies->limits(scene.body, c.with, c.features, own, scene.with[k].poseAt(t))
+                          : bodies->limits(c.with, scene.body, c.features, scene.with[k].poseAt(t), own);
+    addGuards(static_cast<int>(k), c.mode, c.friction, std::move(limits), guards);
   }
   return guards;
 }
@@ -65,13 +63,17 @@ double guardValue(const ConstrainedGuard& guard, const ConstrainedScene& scene, 
     case TransitionCause::sticks:
       return c.slip.dot(now.velocityAt(k)) / scene.speed;
     case TransitionCause::leaves:
-      return borderValue(guard, scene, contacts, own, t, c);
+    {
+      const PersistentContact& of = contacts[k];
+      const Pose pose = guard.border.body == of.with ? scene.with[k].poseAt(t) : own;
+      return borderValue(guard.border, pose, own.x + c.r, of.is_first ? c.n : Vec3(-c.n));
+    }
     default:
       return 1;
   }
 }
 
-double guardRounding(const ConstrainedGuard& guard, const ConstrainedScene& scene) {
+double guardRounding(const ConstrainedGuard& guard, double size_of_positions) {
   switch (guard.cause) {
     case TransitionCause::lifts:
     case TransitionCause::slips:
@@ -79,7 +81,7 @@ double guardRounding(const ConstrainedGuard& guard, const ConstrainedScene& scen
     case TransitionCause::sticks:
       return 1e-13;
     default:
-      return 1e-14 * (isLength(guard) ? scene.size : 1);
+      return 1e-14 * (isLength(guard) ? size_of_positions : 1);
   }
 }
 

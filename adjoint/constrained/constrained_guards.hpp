@@ -28,7 +28,12 @@ std::vector<ConstrainedGuard> guardsOf(const ConstrainedScene& scene, const std:
 /// with the units of force m a and speed c of the scene. `shareOfMargin`: by what a value is to be multiplied to be without a unit.
 double guardValue(const ConstrainedGuard& guard, const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts,
                   const Pose& own, double t, const ConstrainedInstant& now, const ConstrainedForces& forces);
-double guardRounding(const ConstrainedGuard& guard, const ConstrainedScene& scene);
+double guardRounding(const ConstrainedGuard& guard, double size_of_positions);
 double shareOfMargin(const ConstrainedGuard& guard, const ConstrainedScene& scene);
+
+/// Of one contact, at which the features have these limits: adds its guards.
+void addGuards(int contact, ContactMode mode, double friction, std::vector<FeatureLimit> limits, std::vector<ConstrainedGuard>& guards);
+/// The value of a limit of a body with this pose at a contact there, n from b to a.
+double borderValue(const FeatureLimit& limit, const Pose& pose, const Vec3& point, const Vec3& n);
 
 }  // namespace carom::adjoint_detail

@@ -8,7 +8,7 @@
 #include "adjoint/base/refuse.hpp"
 #include "adjoint/constrained/constrained_dynamics.hpp"
 #include "adjoint/constrained/constrained_start.hpp"
-#include "adjoint/constrained/path_limits.hpp"
+#include "adjoint/constrained/slip_ahead.hpp"
 #include "adjoint/numeric/decompositions.hpp"
 #include "adjoint/numeric/elementary.hpp"
 
@@ -81,16 +81,9 @@ double ConstrainedPath::lookAtSlips(ConstrainedStepper::Start& start) const {
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     if (contacts_[k].mode != ContactMode::slides || !(contacts_[k].friction > 0)) continue;
     if (contacts_[k].begins && steps_.empty()) continue;
-    const ContactInstant<double>& c = now.contacts[k];
-    const double slip = now.slipAt(k).norm(), share = slip / scene_.speed;
-    Vec3 rate = forces.slipRate(k);
-    rate -= c.n.dot(rate) * c.n;
-    const double along = start.slip[k].dot(rate), across = (rate - along * start.slip[k]).norm();
-    if (share < PathLimits::kStraightAnyway || (share < PathLimits::kStraight && share * across < PathLimits::kLeftOutOfSlip * rate.norm())) {
-      start.frozen[k] = along < 0;
-    } else if (across > PathLimits::kTurns * rate.norm()) {
-      longest = std::min(longest, slip / rate.norm() * PathLimits::lengthBeforeEnd(share));
-    }
+    const SlipAhead ahead = slipAhead(now.slipAt(k).norm(), start.slip[k], forces.slipRate(k), now.contacts[k].n, scene_.speed);
+    if (ahead.frozen) start.frozen[k] = true;
+    longest = std::min(longest, ahead.longest);
   }
   return longest;
 }
@@ -176,18 +169,8 @@ State ConstrainedPath::stayingOn(const State& state, double t) const {
 }
 
 void ConstrainedPath::take(ConstrainedStep step) {
-  const ConstrainedSlopes& c = step.slopes;
   if (step.length > 0) {
-    const auto most = [&](int row) { return c.middleRows<3>(row).colwise().norm().eval(); };
-    const auto push = most(6), turn = most(3);
-    bounds_.variation = std::max(bounds_.variation, (Vec3(c.block<3, 1>(6, 0)) - bounds_.acceleration).norm() +
-                                                        push.tail(Gauss::kNodes - 1).sum());
-    // |P_k| <= 1 and |P_k'| <= k (k + 1)/2, of (x + 1)/2 twice that; omega = J theta' with |J| <= 1, |J'| <= |theta'|
-    double bend = 0;
-    for (int k = 1; k < Gauss::kNodes; ++k) bend += turn[k] * k * (k + 1) / step.length;
-    const double spin = turn.sum();
-    bounds_.spin = std::max(bounds_.spin, spin);
-    bounds_.spin_rate = std::max(bounds_.spin_rate, bend + spin * spin);
+    widen(bounds_, step.slopes, step.length);
     known_ = step.start + step.length;
     const State end = step.stateAt(known_);
     last_ = endsFlat() ? end : stayingOn(end, known_);
@@ -197,37 +180,21 @@ void ConstrainedPath::take(ConstrainedStep step) {
   steps_.add(std::move(step));
 }
 
-const ConstrainedStep& ConstrainedPath::stepAt(double t) const {
-  std::size_t low = 0, high = steps_.size();
-  while (high - low > 1) {  // the last one that starts before t
-    const std::size_t middle = (low + high) / 2;
-    (steps_[middle].start < t && steps_[middle].length > 0 ? low : high) = middle;
-  }
-  if (t > known_)  // a polynomial is good for about its length beyond it: rather that of a longer step before
-    while (low > 0 && steps_[low].length < t - known_ && steps_[low - 1].length > steps_[low].length) --low;
-  return steps_[low];
-}
-
 // Where what lies beyond a border is looked for, the path is seen a little beyond its end: further than a step is long its
 // polynomial tells nothing there, but how the body moves at the end.
 State ConstrainedPath::stateAt(double t) const {
   if (!(t > start_)) return start_state_;
-  const bool moves = !steps_.empty() && steps_.front().length > 0;
-  if (moves) {
+  if (steps_.move()) {
     const ConstrainedStep& step = stepAt(t);
     if (!(t > known_) || t - step.start <= 2 * step.length) return step.stateAt(t);
   }
-  const State& end = moves ? last_ : start_state_;
+  const State& end = steps_.move() ? last_ : start_state_;
   const double beyond = t - known_;
-  if (!(beyond > 0)) return end;
-  ConstrainedVector change = ConstrainedVector::Zero();
-  change.head<3>() = beyond * end.v;
-  change.segment<3>(3) = beyond * (scene_.model->inverseInertiaWorld(end.q.toRotationMatrix()) * end.L);
-  return ConstrainedStep::moved(end, change);
+  return beyond > 0 ? ContactStep::goingOn(end, *scene_.model, beyond) : end;
 }
 
 Vec3 ConstrainedPath::velocityAt(const Arc&, double t) const {
-  if (!(t > start_) || steps_.empty() || !(steps_.front().length > 0)) return start_state_.v;
+  if (!(t > start_) || !steps_.move()) return start_state_.v;
   const ConstrainedStep& step = stepAt(t);
   return step.from.v + step.changeAt(t).segment<3>(6);
 }
@@ -278,7 +245,7 @@ void ConstrainedPath::alignStop(ConstrainedInstant& now) const {
 
 ConstrainedInstant ConstrainedPath::instantAt(double t) const {
   std::vector<Vec3> slip;
-  if (steps_.empty() || !(steps_.front().length > 0)) {
+  if (!steps_.move()) {
     slip = slipAfter();
   } else {
     stepAt(t).placeSlips(t, slip);

@@ -8,6 +8,7 @@
 #include "adjoint/flight/trajectory.hpp"
 #include "adjoint/constrained/constrained_guards.hpp"
 #include "adjoint/constrained/constrained_step.hpp"
+#include "adjoint/constrained/path_ending.hpp"
 #include "adjoint/motion/rim_geometry.hpp"
 
 namespace carom::adjoint_detail {
@@ -16,10 +17,7 @@ namespace carom::adjoint_detail {
 /// frozen modes: as many steps as somebody has looked at, up to the first guard that falls to 0.
 class ConstrainedPath final : public Trajectory {
  public:
-  struct Ending {
-    double time = kInfinity;
-    ConstrainedGuard guard;
-  };
+  using Ending = PathEnding;
 
   /// `until`: nothing later is asked for. `stopped`: see constrainedStart. Throws NotComputable where not even a first step can be made.
   ConstrainedPath(ConstrainedScene scene, std::vector<PersistentContact> contacts, bool redundant, std::vector<ConstrainedGuard> guards,
@@ -66,7 +64,7 @@ class ConstrainedPath final : public Trajectory {
   /// It begins where a rim lies flat, and tilts about its lowest point.
   bool beginsFlat() const;
   /// Of two steps that meet at t the one before.
-  const ConstrainedStep& stepAt(double t) const;
+  const ConstrainedStep& stepAt(double t) const { return steps_.at(t, known_); }
   double start() const { return start_; }
   /// The impulses, N s, by which the contacts took away what was left of speeds at its start; empty: none.
   const std::vector<Vec3>& stopped() const { return stopped_; }
@@ -96,11 +94,6 @@ class ConstrainedPath final : public Trajectory {
 
  private:
   struct Values;
-  std::size_t indexOf(const ConstrainedGuard& guard) const;
-  struct Bracket {
-    double above, below;  ///< times, between which a guard falls through 0
-    double high, low;     ///< its values there
-  };
   // A rim that comes to lie flat, about an axis that stays.
   struct FlatAhead {
     std::size_t contact;
@@ -121,7 +114,6 @@ class ConstrainedPath final : public Trajectory {
   double lookAtSlips(ConstrainedStepper::Start& start) const;
   double shorterLength(double length, double error, const std::optional<Ending>& end) const;
   std::optional<Ending> firstEnd(const ConstrainedStep& step, bool nodes_alone = false) const;
-  double rootOf(Values& values, std::size_t guard, Bracket in) const;
   bool endAt(ConstrainedStepper& stepper, const ConstrainedStepper::Start& start, ConstrainedStep& step, Ending& end) const;
   double guardAt(std::size_t guard, double t) const;
   double leastOf(std::size_t guard, double from, double to) const;

@@ -7,7 +7,6 @@
 
 #include "adjoint/base/refuse.hpp"
 #include "adjoint/constrained/constrained_dynamics.hpp"
-#include "adjoint/constrained/path_limits.hpp"
 #include "adjoint/constrained/constrained_path_values.hpp"
 
 namespace carom::adjoint_detail {
@@ -29,35 +28,15 @@ constexpr double kJams = 1e-3;
 
 }  // namespace
 
-std::size_t ConstrainedPath::indexOf(const ConstrainedGuard& guard) const {
-  return static_cast<std::size_t>(std::ranges::find_if(guards_, [&](const ConstrainedGuard& g) { return g.isSame(guard); }) - guards_.begin());
-}
-
 TrajectoryEnd ConstrainedPath::end() const {
   if (!end_) return {};
   return {end_->time, end_->guard.cause, end_->guard.contact, end_->guard.limit};
 }
 
-// The state of an event is that at the end of a step: the step is made anew up to the root, which is found once more
-// there. False: there is no such step.
 bool ConstrainedPath::endAt(ConstrainedStepper& stepper, const ConstrainedStepper::Start& start, ConstrainedStep& step, Ending& end) const {
-  const std::size_t which = indexOf(end.guard);
-  for (int round = 0; round < PathLimits::kEndings; ++round) {
-    const double shorter = end.time - known_;
-    if (shorter == step.length) return true;
-    std::optional<ConstrainedStep> ending = stepper.tried(start, shorter, &step);
-    if (!ending) return false;
-    step = std::move(*ending);
-    Values values(*this, step);
-    const double h = step.length, value = values.at(known_ + h)[which], earlier = values.at(known_ + 0.999 * h)[which];
-    const double move = -value * (0.001 * h) / (value - earlier);
-    if (std::abs(move) <= std::max(PathLimits::kSameEnd * h, 1e-16 * known_)) return true;
-    const bool is_rounding = std::abs(value) <= guardRounding(guards_[which], scene_);  // of a guard that hardly moves
-    if (is_rounding && (round > 0 || !(value < earlier))) return true;
-    if (!(std::abs(move) <= 0.5 * h)) return false;
-    end.time += move;
-  }
-  return false;
+  const std::size_t which = indexOf(guards_, end.guard);
+  return adjoint_detail::endAt(stepper, start, step, end, guardRounding(end.guard, scene_.size),
+                               [&](const ConstrainedStep& of, double t) { return Values(*this, of).at(t)[which]; });
 }
 
 // How often a rim's lowest point goes round tells how much work the rest of a motion is: some ten steps each time.
@@ -145,7 +124,7 @@ std::optional<ConstrainedStep> ConstrainedPath::stepToFlat(ConstrainedStepper& s
     if (!next) return std::nullopt;
     step = std::move(next);
     like = &*step;
-    const Tilt tilt = tiltOf(ahead.contact, ConstrainedStep::moved(step->from, step->changeAt(step->start + length)));
+    const Tilt tilt = tiltOf(ahead.contact, ContactStep::moved(step->from, step->changeAt(step->start + length)));
     const double rate = ahead.axis.dot(tilt.rate), move = -ahead.axis.dot(tilt.x) / rate;
     if (!(rate < 0)) return std::nullopt;
     if (std::abs(move) <= std::max({PathLimits::kSameEnd * length, 2e-16 * known_, kTiltRounding / -rate})) {
@@ -190,27 +169,11 @@ bool ConstrainedPath::passesBy(const ConstrainedStep& step, const Ending& end) c
   return now.slipAt(k).norm() > (step.frozen[k] ? PathLimits::kStraightLeft : PathLimits::kNothingLeft) * scene_.speed;
 }
 
-// The first guard that falls through 0, looked for at the nodes and at both ends.
 std::optional<ConstrainedPath::Ending> ConstrainedPath::firstEnd(const ConstrainedStep& step, bool nodes_alone) const {
   if (guards_.empty()) return std::nullopt;
-  const Gauss& gauss = Gauss::get();
-  double before = step.start;
   Values values(*this, step);
   std::vector<double> last = values.atStart();
-  for (int i = 0; i <= Gauss::kNodes - (nodes_alone ? 1 : 0); ++i) {
-    const double t = step.start + (i < Gauss::kNodes ? gauss.node[i] : 1) * step.length;
-    const std::vector<double> now = values.at(t);
-    std::optional<Ending> first;
-    for (std::size_t g = 0; g < guards_.size(); ++g) {
-      if (!(now[g] < -guardRounding(guards_[g], scene_)) || !(now[g] < last[g])) continue;
-      const double root = last[g] <= 0 ? before : rootOf(values, g, {before, t, last[g], now[g]});
-      // what comes at one instant comes in the order of the guards, whatever the rounding
-      if (!first || root < first->time - PathLimits::kAtOnce * std::abs(root)) first = Ending{root, guards_[g]};
-    }
-    if (first) return first;
-    before = t, last = now;
-  }
-  return std::nullopt;
+  return adjoint_detail::firstEnd(guards_, step.start, step.length, scene_.size, std::move(last), [&](double t) { return values.at(t); }, nodes_alone);
 }
 
 double ConstrainedPath::guardAt(std::size_t guard, double t) const {
@@ -257,29 +220,6 @@ ConstrainedPath::NearMiss ConstrainedPath::nearestMiss(double until) const {
     }
   }
   return nearest;
-}
-
-double ConstrainedPath::rootOf(Values& values, std::size_t guard, Bracket in) const {
-  const double length = in.below - in.above;
-  int side = 0;
-  for (int k = 0; k < 100 && std::nextafter(in.above, in.below) < in.below && in.low < 0; ++k) {
-    // the chord, drawn towards the end that has not moved (Illinois), with halving where it does not help
-    double t = k % 8 == 7 ? 0.5 * (in.above + in.below)
-                          : in.above + (in.below - in.above) * (in.high / (in.high - in.low));
-    t = std::clamp(t, std::nextafter(in.above, in.below), std::nextafter(in.below, in.above));
-    const double now = values.at(t)[guard];
-    if (now > 0) {
-      in.above = t, in.high = now;
-      if (side == 1) in.low *= 0.5;
-      side = 1;
-    } else {
-      in.below = t, in.low = now;
-      if (side == -1) in.high *= 0.5;
-      side = -1;
-    }
-    if (in.below - in.above <= 4e-16 * std::max(std::abs(in.below), length) || now == 0) break;
-  }
-  return in.below;
 }
 
 }  // namespace carom::adjoint_detail

@@ -35,14 +35,14 @@ Vec3 rotationRate(const Vec3& theta, const Vec3& w) {
   return w - 0.5 * across + c * theta.cross(across);
 }
 
-std::vector<Vec3> ConstrainedStep::slipAtNode(int node) const {
+std::vector<Vec3> ContactStep::slipAtNode(int node) const {
   std::vector<Vec3> at;
   for (const auto& of : slip) at.push_back(of[static_cast<std::size_t>(node)]);
   return at;
 }
 
 // Directions that are frozen, or of contacts that stick, are the same at all nodes.
-void ConstrainedStep::placeSlips(double t, std::vector<Vec3>& at) const {
+void ContactStep::placeSlips(double t, std::vector<Vec3>& at) const {
   const Gauss::Row weights = Gauss::values((t - start) / length) * Gauss::get().coefficients;
   at.resize(slip.size());
   for (std::size_t k = 0; k < slip.size(); ++k) {
@@ -54,10 +54,30 @@ void ConstrainedStep::placeSlips(double t, std::vector<Vec3>& at) const {
   }
 }
 
-State ConstrainedStep::moved(const State& from, const ConstrainedVector& change) {
+State ContactStep::moved(const State& from, const ConstrainedVector& change) {
   const Vec3 theta = change.segment<3>(3);
   return {from.x + change.head<3>(), theta.isZero(0) ? from.q : Quat((expSO3(theta) * from.q).normalized()),
           from.v + change.segment<3>(6), from.L + change.tail<3>()};
+}
+
+State ContactStep::goingOn(const State& from, const BodyModel& model, double elapsed) {
+  ConstrainedVector change = ConstrainedVector::Zero();
+  change.head<3>() = elapsed * from.v;
+  change.segment<3>(3) = elapsed * (model.inverseInertiaWorld(from.q.toRotationMatrix()) * from.L);
+  return moved(from, change);
+}
+
+// |P_k| <= 1 and |P_k'| <= k (k + 1)/2, of (x + 1)/2 twice that; omega = J theta' with |J| <= 1, |J'| <= |theta'|
+void widen(TrajectoryBounds& bounds, const ConstrainedSlopes& slopes, double length) {
+  const auto most = [&](int row) { return slopes.middleRows<3>(row).colwise().norm().eval(); };
+  const auto push = most(6), turn = most(3);
+  bounds.variation = std::max(bounds.variation, (Vec3(slopes.block<3, 1>(6, 0)) - bounds.acceleration).norm() +
+                                                    push.tail(Gauss::kNodes - 1).sum());
+  double bend = 0;
+  for (int k = 1; k < Gauss::kNodes; ++k) bend += turn[k] * k * (k + 1) / length;
+  const double spin = turn.sum();
+  bounds.spin = std::max(bounds.spin, spin);
+  bounds.spin_rate = std::max(bounds.spin_rate, bend + spin * spin);
 }
 
 // Everything at the nodes of one round, and what it is worked out with.
@@ -161,7 +181,7 @@ ConstrainedSlopes ConstrainedStepper::evaluate(ConstrainedStep& step, const Cons
   ConstrainedSlopes F;
   for (std::size_t i = 0; i < kNodes; ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    const State s = ConstrainedStep::moved(step.from, change.col(column));
+    const State s = ContactStep::moved(step.from, change.col(column));
     ConstrainedInstant& now = nodes.at[i];
     placeInstant(scene_, contacts_, s, s.q.toRotationMatrix(), step.start + Gauss::get().node[column] * step.length, now);
     slopesAt(i, step, s, change.block<3, 1>(3, column), F);

@@ -43,7 +43,9 @@ void GroupForces::addWrench(std::size_t k, const Sided& wrench, double by, Eigen
   if (c.member_b >= 0) sum.segment<6>(6 * c.member_b) += by * wrench.b;
 }
 
-void GroupForces::assemble() {
+void GroupForces::assemble(const std::vector<GroupContact>& contacts, const GroupInstant& now) {
+  contacts_ = &contacts, now_ = &now;
+  wrench_.setZero(6 * rowAt(now.members.size()));
   first_.clear(), contact_of_.clear(), row_.clear(), wrench_of_.clear();
   std::vector<double> b;
   for (std::size_t k = 0; k < contacts_->size(); ++k) {
@@ -77,10 +79,9 @@ void GroupForces::assemble() {
 bool GroupForces::dependent() const { return row_.size() > 1 && FullLu(B_, kDependentForces).rank() < B_.rows(); }
 
 void GroupForces::solve(const std::vector<GroupContact>& contacts, const GroupInstant& now, bool redundant) {
-  contacts_ = &contacts, now_ = &now, redundant_ = redundant;
-  wrench_.setZero(6 * rowAt(now.members.size()));
+  redundant_ = redundant;
   force_.assign(contacts.size(), Vec3::Zero());
-  assemble();
+  assemble(contacts, now);
   if (row_.empty()) return;
   reduced_.reset();
   if (!B_.allFinite() || !b_.allFinite()) throw NotComputable("forces at the contacts of bodies that move on each other are beyond the range of doubles");
@@ -133,9 +134,7 @@ Vec3 GroupForces::spinRate(std::size_t member) const {
   return m.turning() + m.A * moment(member);
 }
 
-Vec3 GroupForces::slipRate(std::size_t k) const {
-  const GroupContact& of = (*contacts_)[k];
-  const GroupContactInstant& c = now_->contacts[k];
+Vec3 GroupForces::slipRateAt(const GroupContact& of, const GroupContactInstant& c) const {
   const auto rate = [&](int member, const Vec3& driven) -> Vec3 {
     if (member < 0) return driven;
     const auto i = static_cast<std::size_t>(member);
@@ -143,11 +142,6 @@ Vec3 GroupForces::slipRate(std::size_t k) const {
     return acceleration(i) + spinRate(i).cross(Vec3(c.point - m.x)) + m.w.cross(Vec3(c.point_rate - m.v));
   };
   return rate(of.member_a, c.driven_a) - rate(of.member_b, c.driven_b);
-}
-
-double GroupForces::gapAcceleration(std::size_t k) const {
-  const GroupContactInstant& c = now_->contacts[k];
-  return c.n.dot(slipRate(k)) + c.normal_rate.dot(c.u);
 }
 
 Vec3 GroupForces::responseAt(const Eigen::VectorXd& wrench, std::size_t k) const {

@@ -17,15 +17,19 @@ class GroupForces {
  public:
   /// `redundant`: rows may depend on each other. Keeps a reference to `now`.
   void solve(const std::vector<GroupContact>& contacts, const GroupInstant& now, bool redundant);
+  /// C M^-1 P and c of these contacts alone, without forces.
+  void assemble(const std::vector<GroupContact>& contacts, const GroupInstant& now);
+  const Eigen::MatrixXd& matrix() const { return B_; }
+  const Eigen::VectorXd& withoutForces() const { return b_; }
 
   const Vec3& force(std::size_t k) const { return force_[k]; }  ///< N, on a
   double pressing(std::size_t k) const { return now_->contacts[k].n.dot(force_[k]); }
   Vec3 acceleration(std::size_t member) const;
   Vec3 moment(std::size_t member) const { return wrench_.segment<3>(6 * static_cast<Eigen::Index>(member) + 3); }
   Vec3 spinRate(std::size_t member) const;
-  /// u' at a contact, also of one that has no force.
-  Vec3 slipRate(std::size_t k) const;
-  double gapAcceleration(std::size_t k) const;  ///< d^2(gap)/dt^2
+  Vec3 slipRate(std::size_t k) const { return slipRateAt((*contacts_)[k], now_->contacts[k]); }  ///< u' at a contact
+  /// The same of one of these bodies that has no force.
+  Vec3 slipRateAt(const GroupContact& of, const GroupContactInstant& c) const;
   bool dependent() const;  ///< its rows are not independent
 
   /// How all wrenches answer as the direction of slip at contact k turns about its normal, by 1 rad.
@@ -41,7 +45,6 @@ class GroupForces {
   };
   Sided along(std::size_t k, const Vec3& direction) const;
   double product(std::size_t k, const Sided& row, std::size_t l, const Sided& wrench) const;
-  void assemble();
   Eigen::VectorXd solved(const Eigen::VectorXd& b) const;  // y with B y = -b
   void addWrench(std::size_t k, const Sided& wrench, double by, Eigen::VectorXd& sum) const;
 

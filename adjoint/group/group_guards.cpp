@@ -13,18 +13,6 @@ Pose poseOf(const GroupScene& scene, const std::vector<GroupContact>& contacts, 
   return {s.x, scene.members[static_cast<std::size_t>(member)].model->shapeToWorld(s.q.toRotationMatrix())};
 }
 
-double borderValue(const FeatureLimit& limit, const Pose& pose, const GroupContactInstant& c) {
-  const Vec3 at = pose.R.transpose() * (c.point - pose.x);
-  double value = 0;
-  if (limit.radius > 0) {
-    const Vec3 to = at - (limit.border + limit.radius * limit.point_weight);
-    value = limit.radius - (to - limit.axis.dot(to) * limit.axis).norm();
-  } else if (!limit.point_weight.isZero(0)) {
-    value = limit.point_weight.dot(at - limit.border);
-  }
-  return value + limit.normal_weight.dot(pose.R.transpose() * c.n);
-}
-
 }  // namespace
 
 std::vector<ConstrainedGuard> guardsOf(const GroupScene& scene, const std::vector<GroupContact>& contacts, const std::vector<State>& states, double t) {
@@ -32,16 +20,10 @@ std::vector<ConstrainedGuard> guardsOf(const GroupScene& scene, const std::vecto
   const auto* bodies = dynamic_cast<const BodyGeometry*>(scene.geometry.get());
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const GroupContact& c = contacts[k];
-    const int contact = static_cast<int>(k);
-    guards.push_back({TransitionCause::lifts, contact, -1, {}});
-    if (c.mode == ContactMode::sticks) guards.push_back({TransitionCause::slips, contact, -1, {}});
-    if (c.turns()) guards.push_back({TransitionCause::sticks, contact, -1, {}});
-    if (!bodies) continue;
-    std::vector<FeatureLimit> limits =
-        bodies->limits(c.a, c.b, c.features, poseOf(scene, contacts, states, k, true, t), poseOf(scene, contacts, states, k, false, t));
-    for (std::size_t i = 0; i < limits.size(); ++i)
-      if (!limits[i].point_weight.isZero(0) || limits[i].rolls_over)
-        guards.push_back({TransitionCause::leaves, contact, static_cast<int>(i), std::move(limits[i])});
+    std::vector<FeatureLimit> limits;
+    if (bodies)
+      limits = bodies->limits(c.a, c.b, c.features, poseOf(scene, contacts, states, k, true, t), poseOf(scene, contacts, states, k, false, t));
+    addGuards(static_cast<int>(k), c.mode, c.friction, std::move(limits), guards);
   }
   return guards;
 }
@@ -60,14 +42,14 @@ std::vector<double> guardValues(const std::vector<ConstrainedGuard>& guards, con
         outside = outside || values.back() < 0;
         break;
       case TransitionCause::slips:
-        values.push_back((c.friction * pressing - (forces.force(k) - pressing * c.n).norm()) / unit);
+        values.push_back(roomOfFriction(c, forces.force(k)) / unit);
         outside = outside || values.back() < 0;
         break;
       case TransitionCause::sticks:
         values.push_back(c.slip.dot(c.u) / scene.speed);
         break;
       default:
-        values.push_back(borderValue(guard.border, poseOf(scene, contacts, states, k, guard.border.body == contacts[k].a, t), c));
+        values.push_back(borderValue(guard.border, poseOf(scene, contacts, states, k, guard.border.body == contacts[k].a, t), c.point, c.n));
     }
   }
   if (!redundant || !outside) return values;
@@ -78,21 +60,9 @@ std::vector<double> guardValues(const std::vector<ConstrainedGuard>& guards, con
     const double pressing = now.contacts[k].n.dot(shared.force[k]), unit = scene.forceUnit(contacts[k]);
     if (guards[g].cause == TransitionCause::lifts) values[g] = std::max(0.0, pressing / unit);
     if (guards[g].cause == TransitionCause::slips)
-      values[g] = std::max(0.0, (now.contacts[k].friction * pressing - (shared.force[k] - pressing * now.contacts[k].n).norm()) / unit);
+      values[g] = std::max(0.0, roomOfFriction(now.contacts[k], shared.force[k]) / unit);
   }
   return values;
-}
-
-double guardRounding(const ConstrainedGuard& guard, const GroupScene& scene) {
-  switch (guard.cause) {
-    case TransitionCause::lifts:
-    case TransitionCause::slips:
-      return 1e-11;
-    case TransitionCause::sticks:
-      return 1e-13;
-    default:
-      return 1e-14 * (guard.border.point_weight.isZero(0) ? 1 : scene.size);
-  }
 }
 
 }  // namespace carom::adjoint_detail

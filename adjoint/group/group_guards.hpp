@@ -13,6 +13,5 @@ std::vector<ConstrainedGuard> guardsOf(const GroupScene& scene, const std::vecto
 /// slipping have the room of the best share (11.36).
 std::vector<double> guardValues(const std::vector<ConstrainedGuard>& guards, const GroupScene& scene, const std::vector<GroupContact>& contacts,
                                 const std::vector<State>& states, double t, const GroupInstant& now, const GroupForces& forces, bool redundant);
-double guardRounding(const ConstrainedGuard& guard, const GroupScene& scene);
 
 }  // namespace carom::adjoint_detail

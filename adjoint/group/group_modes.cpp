@@ -36,9 +36,8 @@ class GroupModeSearch {
     now_ = instantOf(scene, candidates, states, t, std::vector<Vec3>(candidates.size(), Vec3::Zero()));
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       const Vec3 slip = now_.contacts[k].slipVelocity();
-      const bool known = k < hint.slips.size() && hint.slips[k].has_value();
-      slips_.push_back(known ? *hint.slips[k] : slip.norm() > hint.no_slip);
-      direction_.push_back(slips_.back() && slip.norm() > 0 ? Vec3(slip.normalized()) : Vec3(Vec3::Zero()));
+      slips_.push_back(slip.norm() > hint.no_slip);
+      direction_.push_back(slips_.back() ? Vec3(slip.normalized()) : Vec3(Vec3::Zero()));
     }
   }
 
@@ -50,10 +49,7 @@ class GroupModeSearch {
     if (!later.find()) return false;
     ways_ = later.ways_;
     tolerance_ = kLaterModes;
-    for (std::size_t k = 0; k < ways_.size(); ++k)
-      if (ways_[k] == GroupWay::begins) used_ = later.used_;
-    const std::vector<Vec3> from = later.used_;
-    return turnAll(ways_, from) && isConsistent();
+    return turnAll(ways_, later.used_) && isConsistent();
   }
 
   GroupModes answer() const {
@@ -97,18 +93,7 @@ class GroupModeSearch {
     forces_.solve(held_, closed_, true);
   }
 
-  // u' at a contact, whatever its way.
-  Vec3 slipRate(std::size_t k) const {
-    const GroupContact& of = candidates_[k];
-    const GroupContactInstant& c = now_.contacts[k];
-    const auto rate = [&](int member, const Vec3& driven) -> Vec3 {
-      if (member < 0) return driven;
-      const auto i = static_cast<std::size_t>(member);
-      const MemberInstant& m = now_.members[i];
-      return forces_.acceleration(i) + forces_.spinRate(i).cross(Vec3(c.point - m.x)) + m.w.cross(Vec3(c.point_rate - m.v));
-    };
-    return rate(of.member_a, c.driven_a) - rate(of.member_b, c.driven_b);
-  }
+  Vec3 slipRate(std::size_t k) const { return forces_.slipRateAt(candidates_[k], now_.contacts[k]); }  // whatever its way
   double gapAcceleration(std::size_t k) const {
     const GroupContactInstant& c = now_.contacts[k];
     return c.n.dot(slipRate(k)) + c.normal_rate.dot(c.u);
@@ -163,7 +148,6 @@ class GroupModeSearch {
   double forceUnit(std::size_t k) const { return std::max(scene_.forceUnit(candidates_[k]), force(k).norm()); }
   Vec3 force(std::size_t k) const { return place_[k] < 0 ? Vec3(Vec3::Zero()) : share_[static_cast<std::size_t>(place_[k])]; }
 
-  // Forces as they are shared: within the cones where some such forces make the same accelerations.
   void shareForces() { share_ = sharedForces(scene_, held_, closed_, forces_).force; }
 
   // How the ways go on where they are not consistent, all at once or that which is furthest off alone; the same where they are.
@@ -224,9 +208,11 @@ class GroupModeSearch {
     std::vector<GroupContact> all = candidates_;
     GroupInstant stick = now_;
     for (std::size_t k = 0; k < n; ++k) all[k].mode = stick.contacts[k].mode = ContactMode::sticks;
-    const auto [K, b] = answerOf(all, stick);
+    GroupForces answers;
+    answers.assemble(all, stick);
+    const Eigen::MatrixXd& K = answers.matrix();
     ConeProgramOf<double> program;
-    program.K = K, program.b = b;
+    program.K = K, program.b = answers.withoutForces();
     for (std::size_t k = 0; k < n; ++k) {
       const GroupContactInstant& c = now_.contacts[k];
       program.normal.push_back(c.n), program.friction.push_back(slips_[k] ? 0 : c.friction);
@@ -260,40 +246,6 @@ class GroupModeSearch {
       program.b = unshifted + K * rubs + shift;
     }
     return false;
-  }
-
-  // u' of all contacts by forces at all of them, and without.
-  std::pair<Eigen::MatrixXd, Eigen::VectorXd> answerOf(const std::vector<GroupContact>& contacts, const GroupInstant& now) const {
-    const auto n = static_cast<Index>(contacts.size());
-    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(3 * n, 3 * n);
-    Eigen::VectorXd b(3 * n);
-    GroupForces none;
-    none.solve({}, now, false);
-    for (Index k = 0; k < n; ++k) {
-      const GroupContact& c = contacts[static_cast<std::size_t>(k)];
-      const GroupContactInstant& at = now.contacts[static_cast<std::size_t>(k)];
-      const auto rate = [&](int member, const Vec3& driven) -> Vec3 {
-        if (member < 0) return driven;
-        const auto i = static_cast<std::size_t>(member);
-        const MemberInstant& m = now.members[i];
-        return m.gravity + m.turning().cross(Vec3(at.point - m.x)) + m.w.cross(Vec3(at.point_rate - m.v));
-      };
-      b.segment<3>(3 * k) = rate(c.member_a, at.driven_a) - rate(c.member_b, at.driven_b);
-      for (Index l = 0; l < n; ++l) {
-        const GroupContact& d = contacts[static_cast<std::size_t>(l)];
-        const Vec3& by = now.contacts[static_cast<std::size_t>(l)].point;
-        const auto add = [&](int member, int other, double sign) {
-          if (member < 0 || member != other) return;
-          const MemberInstant& m = now.members[static_cast<std::size_t>(member)];
-          Mat3 block = -(skew(Vec3(at.point - m.x)) * m.A * skew(Vec3(by - m.x)));
-          block.diagonal().array() += m.inverse_mass;
-          K.block<3, 3>(3 * k, 3 * l) += sign * block;
-        };
-        add(c.member_a, d.member_a, 1), add(c.member_b, d.member_b, 1);
-        add(c.member_a, d.member_b, -1), add(c.member_b, d.member_a, -1);
-      }
-    }
-    return {std::move(K), std::move(b)};
   }
 
   const GroupScene& scene_;

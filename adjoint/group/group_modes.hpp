@@ -20,8 +20,7 @@ struct GroupModes {
 
 /// What is known of the modes before they are looked for.
 struct GroupHint {
-  double no_slip = 0;                     ///< m/s: slips that are slower count as none
-  std::vector<std::optional<bool>> slips;  ///< of each candidate, where that is known whatever its speed
+  double no_slip = 0;  ///< m/s: slips that are slower count as none
   /// The group a little later, and when, in the modes that end: at the transition itself several may hold.
   std::optional<std::pair<std::vector<State>, double>> beyond;
 };

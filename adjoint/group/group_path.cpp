@@ -6,7 +6,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/base/refuse.hpp"
-#include "adjoint/constrained/path_limits.hpp"
+#include "adjoint/constrained/slip_ahead.hpp"
 #include "adjoint/group/group_guards.hpp"
 #include "adjoint/group/group_start.hpp"
 #include "adjoint/numeric/elementary.hpp"
@@ -59,7 +59,7 @@ void GroupPath::extend() {
 }
 
 std::vector<Vec3> GroupPath::slipAfter() const {
-  if (!steps_.empty()) return steps_.back()->slipAtNode(Gauss::kNodes - 1);
+  if (!steps_.empty()) return steps_.back().slipAtNode(Gauss::kNodes - 1);
   std::vector<Vec3> slip;
   for (const GroupContact& c : contacts_) slip.push_back(c.slip);
   return slip;
@@ -75,15 +75,9 @@ double GroupPath::lookAtSlips(GroupStepper::Start& start) const {
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     if (!contacts_[k].turns() || (contacts_[k].begins && steps_.empty())) continue;
     const GroupContactInstant& c = now.contacts[k];
-    const double slip = c.slipVelocity().norm(), share = slip / scene_.speed;
-    Vec3 rate = forces.slipRate(k);
-    rate -= c.n.dot(rate) * c.n;
-    const double along = start.slip[k].dot(rate), across = (rate - along * start.slip[k]).norm();
-    if (share < PathLimits::kStraightAnyway || (share < PathLimits::kStraight && share * across < PathLimits::kLeftOutOfSlip * rate.norm())) {
-      start.frozen[k] = along < 0;
-    } else if (across > PathLimits::kTurns * rate.norm()) {
-      longest = std::min(longest, slip / rate.norm() * PathLimits::lengthBeforeEnd(share));
-    }
+    const SlipAhead ahead = slipAhead(c.slipVelocity().norm(), start.slip[k], forces.slipRate(k), c.n, scene_.speed);
+    if (ahead.frozen) start.frozen[k] = true;
+    longest = std::min(longest, ahead.longest);
   }
   return longest;
 }
@@ -92,7 +86,7 @@ GroupStep GroupPath::nextStep() {
   GroupStepper stepper(scene_, contacts_, redundant_);
   GroupStepper::Start start{last_, known_, slipAfter(), std::vector<char>(contacts_.size(), 0)};
   double length = std::min(next_length_, lookAtSlips(start));
-  const GroupStep* like = steps_.empty() ? nullptr : steps_.back().get();
+  const GroupStep* like = steps_.empty() ? nullptr : &steps_.back();
   std::optional<GroupStep> too_long;
   for (int tries = 0; tries < PathLimits::kTries && known_ + length > known_; ++tries) {
     std::optional<GroupStep> step = stepper.tried(start, length, like);
@@ -102,7 +96,7 @@ GroupStep GroupPath::nextStep() {
     }
     std::optional<Ending> end;
     try {
-      end = firstEnd(*step);
+      end = firstEnd(guards_, step->start, step->length, scene_.size, valuesAt(*step, step->start), [&](double t) { return valuesAt(*step, t); });
     } catch (const NotComputable&) {
       if (!(known_ + 1e-3 * length > known_)) throw;
       length *= 0.4;
@@ -122,7 +116,9 @@ GroupStep GroupPath::nextStep() {
       step->length = 0;
     } else {
       const double left = end->time - known_;
-      const bool comes = endAt(stepper, start, *step, *end);
+      const std::size_t which = indexOf(guards_, end->guard);
+      const bool comes = endAt(stepper, start, *step, *end, guardRounding(end->guard, scene_.size),
+                               [&](const GroupStep& of, double t) { return valuesAt(of, t)[which]; });
       if (comes ? passesBy(*step, *end) : left > PathLimits::kAtOnceOfStep * length) {
         length *= 0.5;
         continue;
@@ -138,18 +134,7 @@ GroupStep GroupPath::nextStep() {
 
 void GroupPath::take(GroupStep step) {
   if (step.length > 0) {
-    for (std::size_t m = 0; m < start_.size(); ++m) {
-      const ConstrainedSlopes c = step.slopes.middleRows<12>(12 * static_cast<Eigen::Index>(m));
-      const auto most = [&](int row) { return c.middleRows<3>(row).colwise().norm().eval(); };
-      const auto push = most(6), turn = most(3);
-      TrajectoryBounds& bounds = bounds_[m];
-      bounds.variation = std::max(bounds.variation, (Vec3(c.block<3, 1>(6, 0)) - bounds.acceleration).norm() + push.tail(Gauss::kNodes - 1).sum());
-      double bend = 0;
-      for (int k = 1; k < Gauss::kNodes; ++k) bend += turn[k] * k * (k + 1) / step.length;
-      const double spin = turn.sum();
-      bounds.spin = std::max(bounds.spin, spin);
-      bounds.spin_rate = std::max(bounds.spin_rate, bend + spin * spin);
-    }
+    for (std::size_t m = 0; m < start_.size(); ++m) widen(bounds_[m], step.slopesOf(m), step.length);
     known_ = step.start + step.length;
     const std::vector<State> end = step.statesAt(known_);
     std::vector<GroupContact> contacts = contacts_;
@@ -159,11 +144,12 @@ void GroupPath::take(GroupStep step) {
       if (!((last_[m].v - end[m].v).norm() <= kMostLeftOfSpeed * scene_.speed))
         throw NotComputable("the speed left at the contacts of their path is more than rounding");
   }
-  steps_.push_back(std::make_shared<const GroupStep>(std::move(step)));
+  steps_.add(std::move(step));
 }
 
 std::vector<double> GroupPath::valuesAt(const GroupStep& step, double t) const {
-  std::vector<Vec3> slip = step.slipsAt(t);
+  std::vector<Vec3> slip;
+  step.placeSlips(t, slip);
   if (!(t > step.start) && steps_.empty())
     for (std::size_t k = 0; k < slip.size(); ++k)
       if (!contacts_[k].slip.isZero(0)) slip[k] = contacts_[k].slip;
@@ -176,65 +162,6 @@ std::vector<double> GroupPath::valuesAt(const GroupStep& step, double t) const {
   return guardValues(guards_, scene_, contacts_, states, t, now, forces, redundant_);
 }
 
-std::optional<GroupPath::Ending> GroupPath::firstEnd(const GroupStep& step) const {
-  const Gauss& gauss = Gauss::get();
-  double before = step.start;
-  std::vector<double> last = valuesAt(step, step.start);
-  for (int i = 0; i <= Gauss::kNodes; ++i) {
-    const double t = step.start + (i < Gauss::kNodes ? gauss.node[i] : 1) * step.length;
-    const std::vector<double> now = valuesAt(step, t);
-    std::optional<Ending> first;
-    for (std::size_t g = 0; g < guards_.size(); ++g) {
-      if (!(now[g] < -guardRounding(guards_[g], scene_)) || !(now[g] < last[g])) continue;
-      const double root = last[g] <= 0 ? before : rootOf(step, g, before, t, last[g], now[g]);
-      if (!first || root < first->time - PathLimits::kAtOnce * std::abs(root)) first = Ending{root, guards_[g]};
-    }
-    if (first) return first;
-    before = t, last = now;
-  }
-  return std::nullopt;
-}
-
-double GroupPath::rootOf(const GroupStep& step, std::size_t guard, double above, double below, double high, double low) const {
-  const double length = below - above;
-  int side = 0;
-  for (int k = 0; k < 100 && std::nextafter(above, below) < below && low < 0; ++k) {
-    double t = k % 8 == 7 ? 0.5 * (above + below) : above + (below - above) * (high / (high - low));
-    t = std::clamp(t, std::nextafter(above, below), std::nextafter(below, above));
-    const double now = valuesAt(step, t)[guard];
-    if (now > 0) {
-      above = t, high = now;
-      if (side == 1) low *= 0.5;
-      side = 1;
-    } else {
-      below = t, low = now;
-      if (side == -1) high *= 0.5;
-      side = -1;
-    }
-    if (below - above <= 4e-16 * std::max(std::abs(below), length) || now == 0) break;
-  }
-  return below;
-}
-
-bool GroupPath::endAt(GroupStepper& stepper, const GroupStepper::Start& start, GroupStep& step, Ending& end) const {
-  const auto which = static_cast<std::size_t>(std::ranges::find_if(guards_, [&](const ConstrainedGuard& g) { return g.isSame(end.guard); }) - guards_.begin());
-  for (int round = 0; round < PathLimits::kEndings; ++round) {
-    const double shorter = end.time - known_;
-    if (shorter == step.length) return true;
-    std::optional<GroupStep> ending = stepper.tried(start, shorter, &step);
-    if (!ending) return false;
-    step = std::move(*ending);
-    const double h = step.length, value = valuesAt(step, known_ + h)[which], earlier = valuesAt(step, known_ + 0.999 * h)[which];
-    const double move = -value * (0.001 * h) / (value - earlier);
-    if (std::abs(move) <= std::max(PathLimits::kSameEnd * h, 1e-16 * known_)) return true;
-    const bool is_rounding = std::abs(value) <= guardRounding(guards_[which], scene_);
-    if (is_rounding && (round > 0 || !(value < earlier))) return true;
-    if (!(std::abs(move) <= 0.5 * h)) return false;
-    end.time += move;
-  }
-  return false;
-}
-
 // A slip that was expected to end has not.
 bool GroupPath::passesBy(const GroupStep& step, const Ending& end) const {
   if (end.guard.cause != TransitionCause::sticks) return false;
@@ -244,31 +171,15 @@ bool GroupPath::passesBy(const GroupStep& step, const Ending& end) const {
   return now.contacts[k].slipVelocity().norm() > (step.frozen[k] ? PathLimits::kStraightLeft : PathLimits::kNothingLeft) * scene_.speed;
 }
 
-const GroupStep& GroupPath::stepAt(double t) const {
-  std::size_t low = 0, high = steps_.size();
-  while (high - low > 1) {
-    const std::size_t middle = (low + high) / 2;
-    (steps_[middle]->start < t && steps_[middle]->length > 0 ? low : high) = middle;
-  }
-  if (t > known_)
-    while (low > 0 && steps_[low]->length < t - known_ && steps_[low - 1]->length > steps_[low]->length) --low;
-  return *steps_[low];
-}
-
 State GroupPath::stateAt(std::size_t member, double t) const {
   if (!(t > start_time_)) return start_[member];
-  const bool moves = !steps_.empty() && steps_.front()->length > 0;
-  if (moves) {
-    const GroupStep& step = stepAt(t);
+  if (steps_.move()) {
+    const GroupStep& step = steps_.at(t, known_);
     if (!(t > known_) || t - step.start <= 2 * step.length) return step.stateAt(member, t);
   }
-  const State& end = moves ? last_[member] : start_[member];
+  const State& end = steps_.move() ? last_[member] : start_[member];
   const double beyond = t - known_;
-  if (!(beyond > 0)) return end;
-  ConstrainedVector change = ConstrainedVector::Zero();
-  change.head<3>() = beyond * end.v;
-  change.segment<3>(3) = beyond * (scene_.members[member].model->inverseInertiaWorld(end.q.toRotationMatrix()) * end.L);
-  return ConstrainedStep::moved(end, change);
+  return beyond > 0 ? ContactStep::goingOn(end, *scene_.members[member].model, beyond) : end;
 }
 
 std::vector<State> GroupPath::statesAt(double t) const {
@@ -279,10 +190,10 @@ std::vector<State> GroupPath::statesAt(double t) const {
 
 StateDerivative GroupPath::rateAt(const Arc& arc, double t, const State&) const {
   const std::size_t m = slotOf(arc);
-  const bool moves = !steps_.empty() && steps_.front()->length > 0;
-  std::vector<Vec3> slip = moves && t > start_time_ ? stepAt(t).slipsAt(t) : slipAfter();
-  if (!moves || !(t > start_time_))
-    for (std::size_t k = 0; k < slip.size(); ++k) slip[k] = contacts_[k].slip;
+  std::vector<Vec3> slip;
+  if (steps_.move() && t > start_time_) steps_.at(t, known_).placeSlips(t, slip);
+  else
+    for (const GroupContact& c : contacts_) slip.push_back(c.slip);
   GroupInstant now = instantOf(scene_, contacts_, statesAt(t), t, slip);
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     if (contacts_[k].turns()) now.contacts[k].slip = inPlane(slip[k], now.contacts[k].n);
@@ -300,16 +211,14 @@ TrajectoryEnd GroupPath::end() const {
 
 std::optional<std::pair<std::vector<State>, double>> GroupPath::beyondEnd() const {
   if (!end_ || (end_->guard.cause != TransitionCause::slips && end_->guard.cause != TransitionCause::lifts)) return std::nullopt;
-  const auto which = static_cast<std::size_t>(std::ranges::find_if(guards_, [&](const ConstrainedGuard& g) { return g.isSame(end_->guard); }) - guards_.begin());
+  const std::size_t which = indexOf(guards_, end_->guard);
   GroupStepper stepper(scene_, contacts_, redundant_);
   const GroupStepper::Start start{last_, known_, slipAfter(), std::vector<char>(contacts_.size(), 0)};
-  for (const double share : PathLimits::kFurther) {
-    const std::optional<GroupStep> step = stepper.tried(start, share * scene_.length / scene_.speed, nullptr);
-    if (!step) return std::nullopt;
-    const double later = step->start + step->length;
-    if (valuesAt(*step, later)[which] < -PathLimits::kClearlyBeyond) return std::pair(step->statesAt(later), later);
-  }
-  return std::nullopt;
+  const auto step = stepBeyond<GroupStep>(stepper, start, scene_.length / scene_.speed,
+                                          [&](const GroupStep& of, double t) { return valuesAt(of, t)[which]; });
+  if (!step) return std::nullopt;
+  const double later = step->start + step->length;
+  return std::pair(step->statesAt(later), later);
 }
 
 std::shared_ptr<const TrajectoryLinearization> GroupPath::linearise(const Motion&, int, int, double) const { refuseDerivative(); }

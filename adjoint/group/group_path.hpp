@@ -4,8 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "adjoint/constrained/constrained_guards.hpp"
-#include "adjoint/constrained/path_limits.hpp"
+#include "adjoint/constrained/path_ending.hpp"
 #include "adjoint/flight/trajectory.hpp"
 #include "adjoint/group/group_step.hpp"
 
@@ -15,10 +14,7 @@ namespace carom::adjoint_detail {
 /// member. As many steps as somebody has looked at, up to the first guard that falls to 0.
 class GroupPath final : public Trajectory {
  public:
-  struct Ending {
-    double time = kInfinity;
-    ConstrainedGuard guard;
-  };
+  using Ending = PathEnding;
 
   /// `until`: nothing later is asked for. Throws NotComputable where not even a first step can be made.
   GroupPath(GroupScene scene, std::vector<GroupContact> contacts, bool redundant, std::vector<State> start, double until);
@@ -59,13 +55,9 @@ class GroupPath final : public Trajectory {
   GroupStep nextStep();
   std::vector<Vec3> slipAfter() const;
   double lookAtSlips(GroupStepper::Start& start) const;
-  std::optional<Ending> firstEnd(const GroupStep& step) const;
-  bool endAt(GroupStepper& stepper, const GroupStepper::Start& start, GroupStep& step, Ending& end) const;
   bool passesBy(const GroupStep& step, const Ending& end) const;
   std::vector<double> valuesAt(const GroupStep& step, double t) const;
-  double rootOf(const GroupStep& step, std::size_t guard, double above, double below, double high, double low) const;
   void take(GroupStep step);
-  const GroupStep& stepAt(double t) const;
 
   GroupScene scene_;
   std::vector<GroupContact> contacts_;
@@ -73,7 +65,7 @@ class GroupPath final : public Trajectory {
   std::vector<ConstrainedGuard> guards_;
   std::vector<State> start_, last_;
   double start_time_, until_, known_, next_length_;
-  std::vector<std::shared_ptr<const GroupStep>> steps_;
+  PathSteps<GroupStep> steps_;
   std::optional<Ending> end_;
   std::vector<TrajectoryBounds> bounds_;
   std::vector<ArcKind> kinds_;

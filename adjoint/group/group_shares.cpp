@@ -22,16 +22,14 @@ double roomOfFriction(const GroupContactInstant& c, const Vec3& f) {
 
 SharedForces sharedForces(const GroupScene& scene, const std::vector<GroupContact>& contacts, const GroupInstant& now, const GroupForces& forces) {
   SharedForces shared;
-  shared.room = kInfinity;
+  shared.within = true;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const GroupContactInstant& c = now.contacts[k];
     shared.force.push_back(forces.force(k));
-    const double unit = scene.forceUnit(contacts[k]), pressing = c.n.dot(forces.force(k));
-    shared.room = std::min(shared.room, pressing / unit);
-    if (c.mode == ContactMode::sticks) shared.room = std::min(shared.room, roomOfFriction(c, forces.force(k)) / unit);
+    const bool pushes = c.n.dot(forces.force(k)) >= 0;
+    shared.within = shared.within && pushes && (c.mode != ContactMode::sticks || roomOfFriction(c, forces.force(k)) >= 0);
   }
-  shared.within = shared.room >= 0;
-  if (shared.within || contacts.empty()) return shared;
+  if (shared.within) return shared;
   RestProgram program;
   std::vector<double> reach(now.members.size(), 0);
   for (std::size_t k = 0; k < contacts.size(); ++k)
@@ -45,13 +43,11 @@ SharedForces sharedForces(const GroupScene& scene, const std::vector<GroupContac
     program.mass.push_back(1 / now.members[m].inverse_mass);
     if (reach[m] > 0) program.load.segment<3>(6 * static_cast<Index>(m) + 3) /= reach[m];
   }
-  std::vector<double> along;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const GroupContactInstant& c = now.contacts[k];
     RestProgram::Contact& at = program.contacts.emplace_back();
     at.a = contacts[k].member_a, at.b = contacts[k].member_b;
     const Vec3 push = c.mode == ContactMode::sticks ? c.n : c.push();
-    along.push_back(push.norm());
     at.normal = push / push.norm();
     at.friction = c.mode == ContactMode::sticks ? c.friction : 0;
     at.unit = scene.forceUnit(contacts[k]);
@@ -65,7 +61,6 @@ SharedForces sharedForces(const GroupScene& scene, const std::vector<GroupContac
   const RestForces found = restForces(program);
   if (!(found.unbalanced <= kShareRounding * scene.pull())) return shared;
   shared.within = found.room >= -kShareRounding;
-  shared.room = found.room;
   if (shared.within) shared.force = found.force;
   return shared;
 }

@@ -14,7 +14,6 @@ double roomOfFriction(const GroupContactInstant& c, const Vec3& f);
 /// where they are within.
 struct SharedForces {
   bool within = false;
-  double room = 0;           ///< as a share of the unit of force
   std::vector<Vec3> force;
 };
 SharedForces sharedForces(const GroupScene& scene, const std::vector<GroupContact>& contacts, const GroupInstant& now, const GroupForces& forces);

@@ -13,33 +13,12 @@ namespace {
 
 using Eigen::Index;
 
-
 }  // namespace
 
 std::vector<State> GroupStep::statesAt(double t) const {
   std::vector<State> states;
   for (std::size_t m = 0; m < from.size(); ++m) states.push_back(stateAt(m, t));
   return states;
-}
-
-std::vector<Vec3> GroupStep::slipAtNode(int node) const {
-  std::vector<Vec3> out;
-  for (const auto& of : slip) out.push_back(of[static_cast<std::size_t>(node)]);
-  return out;
-}
-
-std::vector<Vec3> GroupStep::slipsAt(double t) const {
-  const Gauss::Row weights = Gauss::values((t - start) / length) * Gauss::get().coefficients;
-  std::vector<Vec3> out;
-  for (const auto& nodes : slip) {
-    Vec3 sum = nodes.front();
-    if (nodes.front() != nodes.back()) {
-      sum.setZero();
-      for (std::size_t i = 0; i < nodes.size(); ++i) sum += weights[rowAt(i)] * nodes[i];
-    }
-    out.push_back(sum);
-  }
-  return out;
 }
 
 Eigen::VectorXd GroupStepper::scaleOf(double of_x, double of_theta) const {
@@ -130,7 +109,7 @@ Eigen::MatrixXd GroupStepper::evaluate(GroupStep& step, const Eigen::MatrixXd& c
     std::vector<Vec3> theta;
     for (std::size_t m = 0; m < step.from.size(); ++m) {
       const ConstrainedVector of = change.block<12, 1>(12 * rowAt(m), rowAt(i));
-      states.push_back(ConstrainedStep::moved(step.from[m], of));
+      states.push_back(ContactStep::moved(step.from[m], of));
       theta.push_back(of.segment<3>(3));
     }
     placeInstant(scene_, contacts_, states, step.start + Gauss::get().node[rowAt(i)] * step.length, at_[i]);

@@ -11,22 +11,15 @@
 namespace carom::adjoint_detail {
 
 /// A stretch of the path of a group: polynomials in time, of degree 12, twelve rows a member (x, theta, v, L).
-struct GroupStep {
-  double start = 0, length = 0;  ///< s
-  std::vector<State> from;       ///< at the start
-  Eigen::MatrixXd slopes;        ///< 12n x nodes, coefficients of d/dt of (x, theta, v, L)
-  /// Of each contact that slides the unit direction of its slip at the nodes.
-  std::vector<std::array<Vec3, Gauss::kNodes>> slip;
-  std::vector<char> frozen;      ///< of each contact: the direction stays, as its slip ends here
+struct GroupStep : ContactStep {
+  std::vector<State> from;  ///< at the start
+  Eigen::MatrixXd slopes;   ///< 12n x nodes, coefficients of d/dt of (x, theta, v, L)
 
-  State stateAt(std::size_t member, double t) const { return ConstrainedStep::moved(from[member], changeAt(member, t)); }
-  std::vector<State> statesAt(double t) const;
-  ConstrainedVector changeAt(std::size_t member, double t) const {
-    return length * (slopes.middleRows<12>(12 * static_cast<Eigen::Index>(member)) * Gauss::integrals((t - start) / length).transpose());
+  ConstrainedSlopes slopesOf(std::size_t member) const { return slopes.middleRows<12>(12 * rowAt(member)); }
+  State stateAt(std::size_t member, double t) const {
+    return moved(from[member], length * (slopes.middleRows<12>(12 * rowAt(member)) * Gauss::integrals((t - start) / length).transpose()));
   }
-  std::vector<Vec3> slipAtNode(int node) const;
-  /// The same at any time, as polynomials.
-  std::vector<Vec3> slipsAt(double t) const;
+  std::vector<State> statesAt(double t) const;
 };
 
 /// Steps of a group by Gauss collocation, as those of one body (ConstrainedStepper).
