@@ -13,6 +13,7 @@
 #include "examples/support/project_file.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
+#include "tests/edits/ball_above.h"
 #include "tests/edits/document_edits.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
@@ -25,17 +26,6 @@ Document noisyTrack() {
   Document document = editDocument("pub-14-fit-noisy-track");
   for (Constraint& constraint : document.constraints) constraint.soft = 1;
   return document;
-}
-
-Scene ballAbove(const Vec3& velocity) {
-  Scene scene;
-  scene.materials.push_back({.name = "m", .elasticity = 0.7, .friction = 0});
-  Body floor, ball;
-  floor.name = "floor", floor.fixed = true, floor.material = "m", floor.shape = Plane{};
-  ball.name = "ball", ball.material = "m", ball.shape = Sphere{0.1}, ball.mass = 0.2;
-  ball.position = {0, 0, 1}, ball.velocity = velocity;
-  scene.bodies = {floor, ball};
-  return scene;
 }
 
 TEST(LeastSquares, FitANoisyTrack) {

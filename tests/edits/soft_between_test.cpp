@@ -11,27 +11,17 @@
 #include "editing/session.h"
 #include "formats/documents/scene_json.h"
 #include "ode_bridge/ode_contacts.h"
+#include "tests/edits/ball_above.h"
 #include "tests/support/compare.h"
 #include "tests/support/scenes.h"
 
 namespace carom::test {
 namespace {
 
-Scene thrownBall(const Vec3& velocity) {
-  Scene scene;
-  scene.materials.push_back({.name = "m", .elasticity = 0.7, .friction = 0});
-  Body floor, ball;
-  floor.name = "floor", floor.fixed = true, floor.material = "m", floor.shape = Plane{};
-  ball.name = "ball", ball.material = "m", ball.shape = Sphere{0.1}, ball.mass = 0.2;
-  ball.position = {0, 0, 1}, ball.velocity = velocity;
-  scene.bodies = {floor, ball};
-  return scene;
-}
-
 // Without gravity and with its velocity along x the way is a line, whose distance from the place is |y|: only the speed
 // across it changes that.
 TEST(SoftBetween, OfALineIsItsDistance) {
-  Scene scene = thrownBall({1, 0, 0});
+  Scene scene = ballAbove({1, 0, 0});
   scene.gravity.setZero();
   OdeContacts contacts(scene);
   Edit edit(scene, contacts, 2);
@@ -83,7 +73,7 @@ TEST(SoftBetween, DerivativesOfTheObjectiveAreExact) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Random random(seed);
-    const Scene scene = thrownBall({random.in(0.5, 2), random.in(-0.5, 0.5), random.in(-1, 2)});
+    const Scene scene = ballAbove({random.in(0.5, 2), random.in(-0.5, 0.5), random.in(-1, 2)});
     OdeContacts contacts(scene);
     const Motion motion = simulate(scene, contacts, 2);
     const auto beside = [&](double t) -> Vec3 {
@@ -105,7 +95,7 @@ TEST(SoftBetween, DerivativesOfTheObjectiveAreExact) {
 
 // A body seen from another, and a range within which nothing pulls.
 TEST(SoftBetween, RelativeToAnotherBodyAndWithinARange) {
-  Scene scene = thrownBall({1, 0, 2});
+  Scene scene = ballAbove({1, 0, 2});
   Body other = scene.bodies[1];
   other.name = "other", other.position = {0.5, 1, 1}, other.velocity = {0.3, 0, 1};
   other.angular_velocity = {0, 0, 0.4};
@@ -123,7 +113,7 @@ TEST(SoftBetween, RelativeToAnotherBodyAndWithinARange) {
 // A recording without clocks: places along a bounce, each somewhere in a span. The fit finds what they were made with, and
 // has as many times as parameters beside the four.
 TEST(SoftBetween, FitsPlacesWhoseTimesAreNotKnown) {
-  Scene hidden = thrownBall({1.3, 0.2, 0.5});
+  Scene hidden = ballAbove({1.3, 0.2, 0.5});
   hidden.materials[0].elasticity = 0.76;
   OdeContacts contacts(hidden);
   const Motion motion = simulate(hidden, contacts, 2);
@@ -160,7 +150,7 @@ TEST(SoftBetween, FitsPlacesWhoseTimesAreNotKnown) {
 
 // Beside exact constraints, also between two times, which have a time of their own.
 TEST(SoftBetween, BesideExactOnes) {
-  const Scene scene = thrownBall({1, 0, 2});
+  const Scene scene = ballAbove({1, 0, 2});
   OdeContacts contacts(scene);
   Edit edit(scene, contacts, 1.5);
   edit.vary(velocity("ball"), elasticity("m"));
@@ -182,7 +172,7 @@ TEST(SoftBetween, BesideExactOnes) {
 }
 
 TEST(SoftBetween, ASessionTakesThem) {
-  const Scene scene = thrownBall({1, 0, 2});
+  const Scene scene = ballAbove({1, 0, 2});
   OdeContacts contacts(scene);
   Edit edit(scene, contacts, 1.5);
   Constraint place{"ball", between(0.3, 0.7), {Target{"position", {0.5, 0.1, 1.2}}}};
@@ -199,7 +189,7 @@ TEST(SoftBetween, ASessionTakesThem) {
 
 TEST(SoftBetween, AreWrittenAndRead) {
   Document document;
-  document.scene = thrownBall({1, 0, 2});
+  document.scene = ballAbove({1, 0, 2});
   document.duration = 1;
   document.controls = {velocity("ball")};
   Constraint place{"ball", between(0.2, 0.5), {Target{"position", {1.0, any, any}}}};

@@ -16,7 +16,8 @@ struct BrokenDocument {
 };
 
 std::vector<BrokenDocument> brokenTexts();    ///< not JSON, or not within its limits
-std::vector<BrokenDocument> brokenMembers();  ///< of the schema
+std::vector<BrokenDocument> brokenMembers();  ///< of the schema, in what is simulated
+std::vector<BrokenDocument> brokenEdits();    ///< of the schema, in controls and constraints
 std::vector<BrokenDocument> brokenShapes();   ///< of the schema, and what a shape must be
 std::vector<BrokenDocument> brokenMeaning();  ///< what the schema cannot say
 

@@ -42,7 +42,8 @@ void expectRefused(const BrokenDocument& broken) {
 
 TEST(BrokenDocuments, thereAreMany) {
   EXPECT_GE(
-      formats_test::brokenTexts().size() + formats_test::brokenMembers().size() + formats_test::brokenMeaning().size(),
+      formats_test::brokenTexts().size() + formats_test::brokenMembers().size() + formats_test::brokenEdits().size() +
+          formats_test::brokenMeaning().size(),
       60u);
 }
 
@@ -52,6 +53,10 @@ TEST(BrokenDocuments, texts) {
 
 TEST(BrokenDocuments, members) {
   for (const BrokenDocument& broken : formats_test::brokenMembers()) expectRefused(broken);
+}
+
+TEST(BrokenDocuments, edits) {
+  for (const BrokenDocument& broken : formats_test::brokenEdits()) expectRefused(broken);
 }
 
 TEST(BrokenDocuments, shapes) {

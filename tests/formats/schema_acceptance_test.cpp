@@ -103,7 +103,7 @@ TEST(SchemaAcceptance, AgreesWithTheLibraryOnBrokenDocuments) {
   const Json schema = sceneSchema();
   const Judge judge(schema);
   int compared = 0;
-  for (const auto& list : {formats_test::brokenMembers(), formats_test::brokenShapes(), formats_test::brokenMeaning()})
+  for (const auto& list : {formats_test::brokenMembers(), formats_test::brokenEdits(), formats_test::brokenShapes(), formats_test::brokenMeaning()})
     for (const formats_test::BrokenDocument& broken : list) {
       const std::string text =
           broken.from.empty() ? broken.text
