@@ -90,7 +90,7 @@ Action declareSimulate(CLI::App& app) {
       ->type_name("T");
   app.add_flag("--impacts", options->impacts, "List all impacts; more than 50 are summarised otherwise");
   app.add_flag("--groups", options->groups,
-               "Let up to 8 bodies move on each other in lasting contact, without derivatives (default: the motion ends there)");
+               "Let up to 8 bodies move on each other in lasting contact (default: the motion ends there)");
   addMotion(app, options->motion);
   return [options](Output& out) {
     Loaded loaded(out, options->scene, options->motion);

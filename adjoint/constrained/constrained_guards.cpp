@@ -85,6 +85,6 @@ double guardRounding(const ConstrainedGuard& guard, double size_of_positions) {
   }
 }
 
-double shareOfMargin(const ConstrainedGuard& guard, const ConstrainedScene& scene) { return isLength(guard) ? 1 / scene.length : 1; }
+double shareOfMargin(const ConstrainedGuard& guard, double length) { return isLength(guard) ? 1 / length : 1; }
 
 }  // namespace carom::adjoint_detail

@@ -29,7 +29,7 @@ std::vector<ConstrainedGuard> guardsOf(const ConstrainedScene& scene, const std:
 double guardValue(const ConstrainedGuard& guard, const ConstrainedScene& scene, const std::vector<PersistentContact>& contacts,
                   const Pose& own, double t, const ConstrainedInstant& now, const ConstrainedForces& forces);
 double guardRounding(const ConstrainedGuard& guard, double size_of_positions);
-double shareOfMargin(const ConstrainedGuard& guard, const ConstrainedScene& scene);
+double shareOfMargin(const ConstrainedGuard& guard, double length);
 
 /// Of one contact, at which the features have these limits: adds its guards.
 void addGuards(int contact, ContactMode mode, double friction, std::vector<FeatureLimit> limits, std::vector<ConstrainedGuard>& guards);

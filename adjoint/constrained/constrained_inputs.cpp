@@ -50,16 +50,17 @@ SupportStart fromSceneStart(const Motion& motion, int body, const Support& suppo
   return {motion.scene->bodies[b], (*motion.models)[b], SupportFlow::of(from_start, 0, t)};
 }
 
+void shiftSupport(const Support& support, const SupportColumns& columns, double t, Eigen::VectorXd& shift) {
+  if (!support.moves()) return;
+  if (support.isGiven())
+    throw NotComputable("the derivative of a time at which contact changes on a support with a given trajectory is not known");
+  const Kinematics now = support.arc->kinematicsAt(t);
+  shift.segment<6>(columns.pose) << now.v, now.w;
+}
+
 Eigen::VectorXd timeShift(const ConstrainedScene& scene, const ConstrainedInputs& inputs, double t) {
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(inputs.count);
-  for (std::size_t k = 0; k < scene.with.size(); ++k) {
-    const Support& support = scene.with[k];
-    if (!support.moves()) continue;
-    if (support.isGiven())
-      throw NotComputable("the derivative of a time at which contact changes on a support with a given trajectory is not known");
-    const Kinematics now = support.arc->kinematicsAt(t);
-    shift.segment<6>(inputs.partners[inputs.partner_of[k]].pose) << now.v, now.w;
-  }
+  for (std::size_t k = 0; k < scene.with.size(); ++k) shiftSupport(scene.with[k], inputs.partners[inputs.partner_of[k]], t, shift);
   return shift;
 }
 
@@ -79,13 +80,7 @@ ConstrainedInputs::ConstrainedInputs(const ConstrainedScene& scene, const std::v
     partner_of.push_back(p);
   }
   count = kSizes + size_count;
-  for (Partner& p : partners) {
-    p.pose = count;
-    p.sizes = count + 6;
-    count += 6 + p.size_count;
-    for (int* of : {&p.velocity, &p.surface})
-      if (*of >= 0) *of = count, count += 6;
-  }
+  for (Partner& p : partners) count = p.place(count);
   friction = count;
   count += static_cast<int>(contacts.size());
 }
@@ -97,11 +92,9 @@ std::optional<Eigen::Matrix<double, 7, 1>> ConstrainedInputs::columnOf(const Con
   const auto &own_sizes = contact.is_first ? J.size_a : J.size_b, &other_sizes = contact.is_first ? J.size_b : J.size_a;
   if (column < 6) return J.pose.col(own + column);
   if (column >= kSizes && column < kSizes + size_count) return own_sizes.col(column - kSizes);
-  const bool in_pose = column >= p.pose && column < p.sizes;
-  const bool in_velocity = p.velocity >= 0 && column >= p.velocity && column < p.velocity + 6;
-  if (in_pose && !flow.moves) return J.pose.col(other + column - p.pose);
-  if (in_pose || in_velocity) return J.pose.middleCols<6>(other) * flow.poseBy(in_pose ? column - p.pose : 6 + column - p.velocity);
-  if (column >= p.sizes && column < p.sizes + p.size_count) return other_sizes.col(column - p.sizes);
+  if (!flow.moves && column >= p.pose && column < p.pose + 6) return J.pose.col(other + column - p.pose);
+  if (const auto by = p.poseBy(column, flow)) return J.pose.middleCols<6>(other) * *by;
+  if (p.hasSize(column)) return other_sizes.col(column - p.sizes);
   return std::nullopt;
 }
 

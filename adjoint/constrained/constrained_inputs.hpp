@@ -37,16 +37,41 @@ class SupportStart {
 /// Of a support that moves uniformly, at time t.
 SupportStart fromSceneStart(const Motion& motion, int body, const Support& support, double t);
 
+/// Columns of a body that others are in contact with, and that contacts do not move: position and orientation (a rotation vector) at the
+/// start of a path, 6, and dimensions; of one that moves velocity and angular velocity, 6; of one whose surface moves the velocities of
+/// that, 6.
+struct SupportColumns {
+  int body, pose, sizes, size_count;
+  int velocity = -1, surface = -1;  ///< -1: it has none
+
+  /// From `first` on; gives where the next ones begin.
+  int place(int first) {
+    pose = first, sizes = first + 6;
+    first += 6 + size_count;
+    for (int* of : {&velocity, &surface})
+      if (*of >= 0) *of = first, first += 6;
+    return first;
+  }
+  /// How its pose now goes with a column; nothing where it does not. `flow`: of the support.
+  std::optional<Eigen::Matrix<double, 6, 1>> poseBy(int column, const SupportFlow& flow) const {
+    const bool in_pose = column >= pose && column < pose + 6;
+    if (in_pose && !flow.moves) return Eigen::Matrix<double, 6, 1>::Unit(column - pose);
+    if (in_pose) return flow.poseBy(column - pose);
+    if (velocity >= 0 && column >= velocity && column < velocity + 6) return flow.poseBy(6 + column - velocity);
+    return std::nullopt;
+  }
+  bool hasSize(int column) const { return column >= sizes && column < sizes + size_count; }
+  /// The support at SupportFlow::now, with its rates along the columns first, first + 1, ...
+  template <class Number>
+  SupportInstant<Number> instant(const Support& support, int first, int columns, const SupportFlow& flow) const;
+};
+
 /// All that a path in lasting contact depends on, in columns: its start (x, theta, v, L), then gravity, mass, inertia
-/// (three moments and yz, xz, xy), the dimensions of the body; of each body that it is in contact with position and
-/// orientation (a rotation vector) at the start of the path, 6, and dimensions; of one that moves velocity and angular velocity,
-/// 6; of one whose surface moves the velocities of that, 6; the friction of each contact.
+/// (three moments and yz, xz, xy), the dimensions of the body; SupportColumns of each body that it is in contact with; the friction of
+/// each contact.
 struct ConstrainedInputs {
   static constexpr int kStart = 12, kGravity = 12, kMass = 15, kInertia = 16, kProducts = 19, kSizes = 22;
-  struct Partner {
-    int body, pose, sizes, size_count;
-    int velocity = -1, surface = -1;  // -1: it has none
-  };
+  using Partner = SupportColumns;
   int size_count = 0, friction = 0, count = 0;
   std::vector<Partner> partners;
   std::vector<std::size_t> partner_of;  // of each contact
@@ -58,7 +83,9 @@ struct ConstrainedInputs {
                                                       int column, const SupportFlow& flow) const;
   /// The support of contact k, with its rates along the columns first, first + 1, ...
   template <class Number>
-  SupportInstant<Number> supportOf(const Support& support, std::size_t k, int first, int columns, const SupportFlow& flow) const;
+  SupportInstant<Number> supportOf(const Support& support, std::size_t k, int first, int columns, const SupportFlow& flow) const {
+    return partners[partner_of[k]].instant<Number>(support, first, columns, flow);
+  }
 
   /// The chain rule where the state has the derivative `state`, 12 rows, by the inputs: rows by all inputs.
   static Eigen::MatrixXd chained(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& state) {
@@ -71,6 +98,8 @@ struct ConstrainedInputs {
 /// How the inputs at the start of a path would change over time with the supports that move, as these do at time t: nothing but
 /// their poses, which go at V and W. Throws NotComputable where one is given and may accelerate.
 Eigen::VectorXd timeShift(const ConstrainedScene& scene, const ConstrainedInputs& inputs, double t);
+/// Of one support.
+void shiftSupport(const Support& support, const SupportColumns& columns, double t, Eigen::VectorXd& shift);
 
 inline Eigen::Matrix<double, 12, 1> asVector(const StateDerivative& d) {
   return (Eigen::Matrix<double, 12, 1>() << d.x, d.theta, d.v, d.L).finished();
@@ -82,8 +111,7 @@ inline StateDerivative asState(const Eigen::Matrix<double, 12, 1>& v) {
 }
 
 template <class Number>
-SupportInstant<Number> ConstrainedInputs::supportOf(const Support& support, std::size_t k, int first, int columns,
-                                                    const SupportFlow& flow) const {
+SupportInstant<Number> SupportColumns::instant(const Support& support, int first, int columns, const SupportFlow& flow) const {
   const SupportInstant<double> at = support.at(flow.now);
   SupportInstant<Number> now;
   now.x = at.x.cast<Number>(), now.R = at.R.cast<Number>(), now.v = at.v.cast<Number>(), now.w = at.w.cast<Number>();
@@ -91,22 +119,16 @@ SupportInstant<Number> ConstrainedInputs::supportOf(const Support& support, std:
   now.has_belt = at.has_belt, now.center = at.center.cast<Number>();
   now.surface_velocity = at.surface_velocity.cast<Number>();
   now.surface_angular_velocity = at.surface_angular_velocity.cast<Number>();
-  const Partner& p = partners[partner_of[k]];
   for (int lane = 0; lane < columns; ++lane) {
-    const int column = first + lane, pose = column - p.pose, velocity = column - p.velocity, surface = column - p.surface;
+    const int column = first + lane, by_velocity = column - velocity, by_surface = column - surface;
     const auto i = static_cast<std::size_t>(lane);
-    const auto in_pose = [&](int of) {
-      const Eigen::Matrix<double, 6, 1> by = flow.poseBy(of);
-      setRates(now.x, Vec3(by.head<3>()), i);
-      setRates(now.R, Mat3(skew(Vec3(by.tail<3>())) * at.R), i);
-    };
-    if (pose >= 0 && pose < 6) in_pose(pose);
-    if (p.velocity >= 0 && velocity >= 0 && velocity < 6) {
-      in_pose(6 + velocity);
-      (velocity < 3 ? now.v[velocity] : now.w[velocity - 3]).rate[i] = 1;
+    if (const auto by = poseBy(column, flow)) {
+      setRates(now.x, Vec3(by->template head<3>()), i);
+      setRates(now.R, Mat3(skew(Vec3(by->template tail<3>())) * at.R), i);
     }
-    if (p.surface >= 0 && surface >= 0 && surface < 6)
-      (surface < 3 ? now.surface_velocity[surface] : now.surface_angular_velocity[surface - 3]).rate[i] = 1;
+    if (velocity >= 0 && by_velocity >= 0 && by_velocity < 6) (by_velocity < 3 ? now.v[by_velocity] : now.w[by_velocity - 3]).rate[i] = 1;
+    if (surface >= 0 && by_surface >= 0 && by_surface < 6)
+      (by_surface < 3 ? now.surface_velocity[by_surface] : now.surface_angular_velocity[by_surface - 3]).rate[i] = 1;
   }
   return now;
 }

@@ -5,6 +5,7 @@
 
 #include "adjoint/flight/trajectory_linearization.hpp"
 #include "adjoint/constrained/constrained_sensitivity.hpp"
+#include "adjoint/constrained/contact_columns.hpp"
 #include "adjoint/motion/motion.h"
 
 /// Between the inputs of a path in lasting contact and the scene, forward and reverse.
@@ -24,22 +25,9 @@ class ConstrainedColumns {
   StateDerivative pullback(const Eigen::VectorXd& bar, SceneGradient& scene_bar, BodyModelDerivative& model_bar) const;
 
  private:
-  struct Friction {
-    int own, other;  // materials; -1 for none
-    double by_own, by_other;
-  };
-  // A support that moves.
-  struct Carried {
-    int body;
-    SupportStart start;
-  };
-  const Carried* carriedOf(int body) const;
-
-  const Scene* scene_;
   int body_;
   ConstrainedInputs inputs_;
-  std::vector<Carried> carried_;
-  std::vector<Friction> friction_;
+  ContactColumns contacts_;
 };
 
 /// The row of a guard at a time, by the inputs that `columns` has. `shift`: how these go with time.

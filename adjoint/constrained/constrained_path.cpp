@@ -9,19 +9,13 @@
 #include "adjoint/constrained/constrained_dynamics.hpp"
 #include "adjoint/constrained/constrained_start.hpp"
 #include "adjoint/constrained/slip_ahead.hpp"
+#include "adjoint/constrained/slip_stop.hpp"
 #include "adjoint/numeric/decompositions.hpp"
 #include "adjoint/numeric/elementary.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
 
-// The direction of a slip slower than this is better known by the nodes of the step.
-constexpr double kNoDirection = 1e-7;
-// Its direction at its end is found in so many rounds, if it is not further than this from that at a node, rad.
-constexpr int kAlignRounds = 3;
-constexpr double kMostAlign = 0.01;
-// What turns of directions do less to accelerations than this share decides nothing.
-constexpr double kDecides = 1e-9;
 // Of the unit of speed: slower than that is what rounding leaves of speeds that an impact law stops.
 constexpr double kStopped = 1e-14;
 // Most steps of a path, and of one whose rims go round.
@@ -231,14 +225,11 @@ void ConstrainedPath::alignStop(ConstrainedInstant& now) const {
         r[i] = across.dot(rate);
       }
     }
-    // where all turn alike and friction alone pulls, any direction is that of its acceleration: it stays
-    if (!(J.cwiseAbs().maxCoeff() > kDecides * scene_.gravity.norm())) return;
-    const bool each = FullLu(J, kDecides).rank() == size;
-    const Eigen::VectorXd turn = -(each ? PartialLu(J).solve(r) : CompleteOrthogonal(J, kDecides).solve(r));
-    if (!(turn.cwiseAbs().maxCoeff() < kMostAlign)) return;
+    const std::optional<Eigen::VectorXd> turn = turnsAtStop(J, r, scene_.gravity.norm());
+    if (!turn) return;
     for (Eigen::Index i = 0; i < size; ++i) {
       ContactInstant<double>& c = now.contacts[turning[static_cast<std::size_t>(i)]];
-      c.slip = (c.slip + turn[i] * c.n.cross(c.slip)).normalized();
+      c.slip = (c.slip + (*turn)[i] * c.n.cross(c.slip)).normalized();
     }
   }
 }

@@ -83,14 +83,8 @@ class ConstrainedPath final : public Trajectory {
   /// their material there.
   double supportWork(double t) const;
 
-  /// Where a guard comes nearest to 0 and turns away from it: a little change lets it end the path there.
-  struct NearMiss {
-    double margin = kInfinity;  ///< the value of the guard
-    double time = 0;
-    ConstrainedGuard guard;
-  };
   /// The nearest, up to a time, of those that the nodes of steps show.
-  NearMiss nearestMiss(double until) const;
+  PathNearMiss nearestMiss(double until) const;
 
  private:
   struct Values;
@@ -115,8 +109,6 @@ class ConstrainedPath final : public Trajectory {
   double shorterLength(double length, double error, const std::optional<Ending>& end) const;
   std::optional<Ending> firstEnd(const ConstrainedStep& step, bool nodes_alone = false) const;
   bool endAt(ConstrainedStepper& stepper, const ConstrainedStepper::Start& start, ConstrainedStep& step, Ending& end) const;
-  double guardAt(std::size_t guard, double t) const;
-  double leastOf(std::size_t guard, double from, double to) const;
   bool passesBy(const ConstrainedStep& step, const Ending& end) const;
   std::string tooManySteps() const;
   std::string jamAt(const ConstrainedStepper::Start& start) const;

@@ -21,8 +21,6 @@ constexpr double kTiltRounding = 8e-16;
 constexpr double kNodeNoise = 0.05;
 // Rounds of a step to where it lies flat.
 constexpr int kLandings = 12;
-// How well the time of a least value is known, as a share of it or of the unit of time: values are flat there.
-constexpr double kLeastWithin = 1e-9;
 // A contact whose gap answers to its push by less than this share of its answer to the normal alone jams.
 constexpr double kJams = 1e-3;
 
@@ -176,50 +174,10 @@ std::optional<ConstrainedPath::Ending> ConstrainedPath::firstEnd(const Constrain
   return adjoint_detail::firstEnd(guards_, step.start, step.length, scene_.size, std::move(last), [&](double t) { return values.at(t); }, nodes_alone);
 }
 
-double ConstrainedPath::guardAt(std::size_t guard, double t) const {
-  Values values(*this, stepAt(t));
-  return values.at(t)[guard];
-}
-
-// By golden sections.
-double ConstrainedPath::leastOf(std::size_t guard, double from, double to) const {
-  constexpr double kGolden = 0.6180339887498949;
-  double left = to - kGolden * (to - from), right = from + kGolden * (to - from);
-  double at_left = guardAt(guard, left), at_right = guardAt(guard, right);
-  while (to - from > kLeastWithin * std::max(to, scene_.length / scene_.speed)) {
-    if (at_left < at_right) {
-      to = right, right = left, at_right = at_left;
-      at_left = guardAt(guard, left = to - kGolden * (to - from));
-    } else {
-      from = left, left = right, at_left = at_right;
-      at_right = guardAt(guard, right = from + kGolden * (to - from));
-    }
-  }
-  return 0.5 * (from + to);
-}
-
-ConstrainedPath::NearMiss ConstrainedPath::nearestMiss(double until) const {
-  NearMiss nearest;
-  std::vector<double> last, before;  // values at the two times looked at last
-  double at = start_, earlier = start_;
-  const auto look = [&](double t, const std::vector<double>& now) {
-    for (std::size_t g = 0; g < guards_.size() && !before.empty(); ++g) {
-      if (!(last[g] < before[g]) || !(last[g] <= now[g])) continue;
-      const double time = leastOf(g, earlier, t), margin = std::abs(guardAt(g, time)) * shareOfMargin(guards_[g], scene_);
-      if (time <= until && margin < nearest.margin) nearest = {margin, time, guards_[g]};
-    }
-    before = std::move(last), last = now, earlier = at, at = t;
-  };
-  for (const ConstrainedStep& step : steps_) {
-    if (!(step.length > 0) || !(step.start < until)) break;
-    Values values(*this, step);
-    for (const double node : Gauss::get().node) {
-      const double t = step.start + node * step.length;
-      look(t, values.at(t));
-      if (t > until) return nearest;
-    }
-  }
-  return nearest;
+PathNearMiss ConstrainedPath::nearestMiss(double until) const {
+  return adjoint_detail::nearestMiss(
+      guards_, steps_, known_, until, scene_.length / scene_.speed, [&](const ConstrainedStep& step, double t) { return Values(*this, step).at(t); },
+      [&](const ConstrainedGuard& guard) { return shareOfMargin(guard, scene_.length); });
 }
 
 }  // namespace carom::adjoint_detail

@@ -147,10 +147,9 @@ void ConstrainedRates::addSupportRate(std::size_t k, int first, int count, int i
 
 // Of J q' of the support as that turns by a: J (W x a).
 Eigen::Matrix<double, 7, 1> ConstrainedRates::bentBySupport(std::size_t k, int column) const {
-  const ConstrainedInputs::Partner& p = inputs_.partners[inputs_.partner_of[k]];
-  const bool in_pose = column >= p.pose && column < p.sizes;
-  if (!in_pose && !(column >= p.velocity && column < p.velocity + 6)) return Eigen::Matrix<double, 7, 1>::Zero();
-  const Vec3 turn = flows_[k].poseBy(in_pose ? column - p.pose : 6 + column - p.velocity).tail<3>();
+  const auto by = inputs_.partners[inputs_.partner_of[k]].poseBy(column, flows_[k]);
+  if (!by) return Eigen::Matrix<double, 7, 1>::Zero();
+  const Vec3 turn = by->tail<3>();
   const Vec3 W = scene_.with[k].at(flows_[k].now).w;
   return jacobians_[k].pose.middleCols<3>(contacts_[k].is_first ? 9 : 3) * W.cross(turn);
 }

@@ -67,12 +67,14 @@ std::optional<SlipTurns> slipTurns(const ConstrainedPath& path, const Constraine
       out.turned(i, j) = acrossSlip(now, k).dot(forces.responseAt(now.contacts[k].r, push)) / size;
     }
   }
-  if (!(std::abs(out.turned(0, 0)) > kNoTurn)) return std::nullopt;  // it goes round another
+  if (!SlipTurns::turns(out.turned)) return std::nullopt;
   out.across = acrossSlips(path, inputs, t, now, stop);
   return out;
 }
 
-MatrixXd SlipTurns::takingBack(const MatrixXd& left) const {
+bool SlipTurns::turns(const MatrixXd& turned) { return std::abs(turned(0, 0)) > kNoTurn; }
+
+MatrixXd SlipTurns::takingBack(const MatrixXd& turned, const MatrixXd& left) {
   const MatrixXd turn = FullLu(turned, kNoTurn).solveColumns(left);
   if ((turned * turn - left).norm() <= kNoTurn * left.norm()) return turn;  // of four corners two turn the rest
   MatrixXd first = MatrixXd::Zero(turn.rows(), turn.cols());  // those that do not turn by themselves follow the first

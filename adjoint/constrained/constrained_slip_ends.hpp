@@ -15,7 +15,11 @@ struct SlipTurns {
   Eigen::Matrix<double, 6, Eigen::Dynamic> change;     ///< of (v, L) by these turns
 
   /// Turns that take `left` back, which is `across` by the inputs at the start: a row each of those that are needed.
-  Eigen::MatrixXd takingBack(const Eigen::MatrixXd& left) const;
+  Eigen::MatrixXd takingBack(const Eigen::MatrixXd& left) const { return takingBack(turned, left); }
+
+  /// Whether the first of them turns its own slip, not another one about which it goes round.
+  static bool turns(const Eigen::MatrixXd& turned);
+  static Eigen::MatrixXd takingBack(const Eigen::MatrixXd& turned, const Eigen::MatrixXd& left);
 };
 /// Nothing where none stops at t, or turns take nothing back.
 std::optional<SlipTurns> slipTurns(const ConstrainedPath& path, const ConstrainedInputs& inputs, double t);

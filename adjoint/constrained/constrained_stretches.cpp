@@ -6,25 +6,13 @@
 #include "adjoint/constrained/constrained_force_rates.hpp"
 #include "adjoint/constrained/constrained_rates.hpp"
 #include "adjoint/constrained/constrained_start_derivative.hpp"
+#include "adjoint/constrained/straight_slips.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
 
-// Stretches end where a slip has changed by so much of itself. Slower than kNoSlip of the unit of speed it is
-// straight, if its acceleration has no more than kStillTurns of itself across it, and slower than kNoDirectionLeft in any case.
-constexpr double kReachOfStretch = 0.7, kNoSlip = 1e-8, kStillTurns = 1e-6;
-
-// Of what a slip has left at its end, which is rounding: what is no larger across its way there is rounding, too.
-constexpr double kLeftAcross = 4;
-
 // Where slips end with the path: its instant there.
 using SlipEnds = std::optional<ConstrainedInstant>;
-
-// Whether a slip that comes to its end goes straight to it, as far as rounding lets anybody tell.
-bool goesStraightTo(const ConstrainedInstant& end, std::size_t k, const ConstrainedInstant& now) {
-  const double left = end.slipAt(k).norm(), across = std::abs(acrossSlip(end, k).dot(now.slipAt(k)));
-  return left < kLeftAcross * now.slipAt(k).norm() && across <= kLeftAcross * left;
-}
 
 ConstrainedStretch stretchFrom(const ConstrainedPath& path, const SlipEnds& end, const ConstrainedStep& step, double from, double t) {
   const ConstrainedInstant now = path.instantAt(from);
@@ -33,21 +21,17 @@ ConstrainedStretch stretchFrom(const ConstrainedPath& path, const SlipEnds& end,
   for (std::size_t k = 0; k < path.contacts().size(); ++k) {
     const PersistentContact& c = path.contacts()[k];
     if (c.mode != ContactMode::slides || !(c.friction > 0)) continue;
-    const double slip = now.slipAt(k).norm();
     if (step.frozen[k]) {
       out.straight[k] = now.contacts[k].slip;
       continue;
     }
     if (c.begins && !(from > path.start())) continue;
-    const Vec3 rate = forces.slipRate(k);
-    const bool stops = end && end->slipAt(k).norm() <= kNoDirectionLeft * path.scene().speed;
-    const bool turns = rate.cross(now.slipAt(k)).norm() > kStillTurns * rate.norm() * slip && !(stops && goesStraightTo(*end, k, now));
-    if (!(slip > (turns ? kNoDirectionLeft : kNoSlip) * path.scene().speed)) {
-      out.straight[k] = (stops ? *end : now).contacts[k].slip;
-    } else {
-      const double reach = kReachOfStretch * slip / rate.norm();
-      if (from + 1.2 * reach < out.until) out.until = from + reach;
-    }
+    const Vec3 slip = now.slipAt(k);
+    StopOfSlip stop;
+    if (end) stop = {end->slipAt(k).norm(), acrossSlip(*end, k).dot(slip)};
+    const SlipStretch ahead = slipStretch(slip, forces.slipRate(k), stop, path.scene().speed);
+    if (ahead.straight) out.straight[k] = (ahead.stops ? *end : now).contacts[k].slip;
+    else if (from + 1.2 * ahead.reach < out.until) out.until = from + ahead.reach;
   }
   return out;
 }

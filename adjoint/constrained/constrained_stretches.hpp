@@ -5,12 +5,10 @@
 #include <vector>
 
 #include "adjoint/constrained/constrained_inputs.hpp"
+#include "adjoint/constrained/straight_slips.hpp"
 
 /// The pieces of a path over which derivatives are taken in one go, and how its slopes vary at their nodes.
 namespace carom::adjoint_detail {
-
-/// Slower than this share of the unit of speed a slip has no direction of its own.
-inline constexpr double kNoDirectionLeft = 1e-11;
 
 /// A piece of a step, and of each contact the direction that its slip keeps, 0 where it follows. What a slip u has across
 /// its direction goes as a power of |u|, also where the path itself is straight, and polynomials follow that only while |u|

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "adjoint/constrained/border_rate.hpp"
 #include "adjoint/constrained/constrained_force_rates.hpp"
 #include "adjoint/constrained/constrained_share.hpp"
 #include "adjoint/numeric/decompositions.hpp"
@@ -8,44 +9,17 @@ namespace {
 
 using LaneNumber = ConstrainedLanes::Number;
 
-// weight . (R^T (p - x) - border) + normal_weight . R^T n, see FeatureLimit.
 LaneNumber borderRate(const ConstrainedGuard& guard, const ConstrainedPath& path, const ConstrainedInputs& inputs, const ConstrainedLanes& lanes,
                   int first, int count, const ConstrainedRates& rates) {
-  const FeatureLimit& limit = guard.border;
   const auto k = static_cast<std::size_t>(guard.contact);
   const PersistentContact& held = path.contacts()[k];
-  const bool own = limit.body != held.with;
   const ConstrainedInputs::Partner& partner = inputs.partners[inputs.partner_of[k]];
-  V3<LaneNumber> x = lanes.x;
-  M3<LaneNumber> R = lanes.R;
-  if (!own) {
-    const auto support = inputs.supportOf<LaneNumber>(path.scene().with[k], k, first, count, rates.flow(k));
-    x = support.x, R = support.R;
-  }
-  V3<LaneNumber> border = limit.border.cast<LaneNumber>(), normal_weight = limit.normal_weight.cast<LaneNumber>();
-  const int sizes = own ? ConstrainedInputs::kSizes : partner.sizes, size_count = own ? inputs.size_count : partner.size_count;
-  for (int lane = 0; lane < count; ++lane) {
-    const int column = first + lane;
-    const auto at = static_cast<std::size_t>(lane);
-    if (column < sizes || column >= sizes + size_count) continue;
-    if (limit.border_rates.cols() > 0) setRates(border, Vec3(limit.border_rates.col(column - sizes)), at);
-    if (limit.normal_rates.cols() > 0) setRates(normal_weight, Vec3(limit.normal_rates.col(column - sizes)), at);
-  }
   const ContactInstant<LaneNumber>& c = lanes.contacts[k];
-  const V3<LaneNumber> at = R.transpose() * V3<LaneNumber>(lanes.x + c.r - x);
-  LaneNumber value = 0;
-  if (limit.radius > 0) {  // the border is where the weight pointed at the start; the circle's centre stays
-    const Vec3 center = limit.border + limit.radius * limit.point_weight;
-    const V3<LaneNumber> to = at - center.cast<LaneNumber>(), axis = limit.axis.cast<LaneNumber>();
-    const V3<LaneNumber> across = to - axis * axis.dot(to);
-    value = -sqrt(across.squaredNorm());
-    const V3<LaneNumber> outward = V3<LaneNumber>(border - limit.border.cast<LaneNumber>());  // how border and centre move
-    value += outward.dot(V3<LaneNumber>(-limit.point_weight.cast<LaneNumber>()));
-  } else if (!limit.point_weight.isZero(0)) {
-    value = limit.point_weight.cast<LaneNumber>().dot(V3<LaneNumber>(at - border));
-  }
-  const V3<LaneNumber> n = held.is_first ? c.n : V3<LaneNumber>(-c.n);
-  return value + normal_weight.dot(V3<LaneNumber>(R.transpose() * n));
+  const V3<LaneNumber> point = lanes.x + c.r, n = held.is_first ? c.n : V3<LaneNumber>(-c.n);
+  if (guard.border.body != held.with)
+    return borderRateOf(guard.border, lanes.x, lanes.R, {ConstrainedInputs::kSizes - first, inputs.size_count}, point, n);
+  const auto support = inputs.supportOf<LaneNumber>(path.scene().with[k], k, first, count, rates.flow(k));
+  return borderRateOf(guard.border, support.x, support.R, {partner.sizes - first, partner.size_count}, point, n);
 }
 
 LaneNumber roomOf(const ContactInstant<LaneNumber>& c, const V3<LaneNumber>& force) {

@@ -103,4 +103,54 @@ std::optional<Step> stepBeyond(Stepper& stepper, const typename Stepper::Start& 
   return std::nullopt;
 }
 
+/// Where a guard comes nearest to 0 and turns away from it: a little change lets it end the path there.
+struct PathNearMiss {
+  double margin = kInfinity;  ///< the value of the guard
+  double time = 0;
+  ConstrainedGuard guard;
+};
+
+/// The nearest, up to a time, of those that the nodes of steps show. `steps.at(t, known)` gives a step; `value_at(step, t)` the values of all
+/// guards; `unit`: of time; `share(guard)`: by what a value is to be multiplied to be without a unit.
+template <class Steps, class Values, class Share>
+PathNearMiss nearestMiss(const std::vector<ConstrainedGuard>& guards, const Steps& steps, double known, double until, double unit, const Values& value_at,
+                         const Share& share) {
+  // How well the time of a least value is known, as a share of it or of the unit of time: values are flat there.
+  constexpr double kLeastWithin = 1e-9;
+  constexpr double kGolden = 0.6180339887498949;
+  const auto guard_at = [&](std::size_t guard, double t) { return value_at(steps.at(t, known), t)[guard]; };
+  const auto least_of = [&](std::size_t guard, double from, double to) {  // by golden sections
+    double left = to - kGolden * (to - from), right = from + kGolden * (to - from);
+    double at_left = guard_at(guard, left), at_right = guard_at(guard, right);
+    while (to - from > kLeastWithin * std::max(to, unit)) {
+      if (at_left < at_right) {
+        to = right, right = left, at_right = at_left;
+        at_left = guard_at(guard, left = to - kGolden * (to - from));
+      } else {
+        from = left, left = right, at_left = at_right;
+        at_right = guard_at(guard, right = from + kGolden * (to - from));
+      }
+    }
+    return 0.5 * (from + to);
+  };
+  PathNearMiss nearest;
+  std::vector<double> last, before;  // values at the two times looked at last
+  double at = steps.empty() ? 0 : steps.front().start, earlier = at;
+  for (const auto& step : steps) {
+    if (!(step.length > 0) || !(step.start < until)) break;
+    for (const double node : Gauss::get().node) {
+      const double t = step.start + node * step.length;
+      const std::vector<double> now = value_at(step, t);
+      for (std::size_t g = 0; g < guards.size() && !before.empty(); ++g) {
+        if (!(last[g] < before[g]) || !(last[g] <= now[g])) continue;
+        const double time = least_of(g, earlier, t), margin = std::abs(guard_at(g, time)) * share(guards[g]);
+        if (time <= until && margin < nearest.margin) nearest = {margin, time, guards[g]};
+      }
+      before = std::move(last), last = now, earlier = at, at = t;
+      if (t > until) return nearest;
+    }
+  }
+  return nearest;
+}
+
 }  // namespace carom::adjoint_detail

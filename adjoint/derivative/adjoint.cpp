@@ -60,9 +60,9 @@ class ReversePass {
     if (reliability_) reliability_->passArc(motion_, body, k);
     static const ArcSensitivity kUnturned;
     const bool turns = !arc.isFlight() || !isZero(bar.theta);
-    const StateDerivative start = turns ? arcPullback(arc, t, sensitivity(), bar, bars_.scene, bars_.model[b])
-                                        : arcPullback(arc, t, kUnturned, bar, bars_.scene, bars_.model[b]);
-    bars_.arriveAt(body, k, start);
+    const auto arrive = [&](int of, int start_of, const StateDerivative& start) { bars_.arriveAt(of, start_of, start); };
+    if (turns) arcPullback(motion_, body, k, t, sensitivity(), bar, arrive, bars_.scene, bars_.model);
+    else arcPullback(motion_, body, k, t, kUnturned, bar, arrive, bars_.scene, bars_.model);
   }
 
   void throughEvent(int index, const Bars::AtEvent& at) {

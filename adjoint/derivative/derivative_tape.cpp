@@ -12,6 +12,7 @@
 #include "adjoint/derivative/single_impact.hpp"
 #include "adjoint/constrained/constrained_path.hpp"
 #include "adjoint/constrained/ride_path.hpp"
+#include "adjoint/group/group_path.hpp"
 #include "adjoint/impact/tilt.hpp"
 #include "adjoint/motion/pair_rules.hpp"
 #include "adjoint/motion/time_argument.hpp"
@@ -57,12 +58,14 @@ bool beginsToSlip(const Arc& arc) {
   return std::ranges::any_of(constrained->contacts(), [](const PersistentContact& c) { return c.begins; });
 }
 
-ArcSensitivity sensitivity(const Motion& motion, int body, int k, double t) {
-  const auto b = static_cast<std::size_t>(body);
-  const BodyPlan& plan = motion.plan.bodies[b];
-  const Arc& arc = motion.world_lines[b].arcs[static_cast<std::size_t>(k)];
-  if (auto trajectory = arc.trajectory().linearise(motion, body, k, t)) return {{}, std::move(trajectory)};
-  return {arc.rotationSensitivity(t, plan.derivative_tier, plan.derivative_products), nullptr};
+bool beginsToSlip(const GroupPath& path, std::size_t slot) {
+  const auto member = static_cast<int>(slot);
+  return std::ranges::any_of(path.contacts(), [&](const GroupContact& c) { return c.begins && (c.member_a == member || c.member_b == member); });
+}
+
+std::string nearly(const Motion& motion, const PathNearMiss& miss, int a, int b) {
+  const auto name = [&](int body) { return "'" + motion.scene->bodies[static_cast<std::size_t>(body)].name + "'"; };
+  return textOf(6, "at t = ", miss.time, " s the contact of ", name(a), " with ", name(b), " nearly ", nameOf(miss.guard.cause), " (margin ", miss.margin, ")");
 }
 
 }  // namespace
@@ -76,6 +79,17 @@ DerivativeTape::DerivativeTape(const Motion& motion, std::function<void()> look)
 
 DerivativeTape::~DerivativeTape() = default;
 
+ArcSensitivity DerivativeTape::sensitivity(int body, int k, double t) {
+  const auto b = static_cast<std::size_t>(body);
+  const BodyPlan& plan = motion_.plan.bodies[b];
+  const Arc& arc = motion_.world_lines[b].arcs[static_cast<std::size_t>(k)];
+  if (auto trajectory = arc.trajectory().linearise(motion_, body, k, t)) return {{}, std::move(trajectory), nullptr};
+  if (arc.isFlight()) return {arc.rotationSensitivity(t, plan.derivative_tier, plan.derivative_products), nullptr, nullptr};
+  const auto [found, is_new] = shared_.try_emplace({&arc.trajectory(), t});
+  if (is_new) found->second = arc.trajectory().lineariseShared(motion_, t);
+  return {{}, nullptr, found->second};
+}
+
 const ArcSensitivity& DerivativeTape::arc(int body, int k) {
   const std::size_t b = checkedIndex("DerivativeTape::arc", "body", body, arcs_.size());
   const WorldLine& line = motion_.world_lines[b];
@@ -84,7 +98,7 @@ const ArcSensitivity& DerivativeTape::arc(int body, int k) {
   if (!slot) {
     if (look_) look_();
     slot = std::make_unique<ArcSensitivity>(
-        sensitivity(motion_, body, k, motion_.events[static_cast<std::size_t>(line.events[kk])].time));
+        sensitivity(body, k, motion_.events[static_cast<std::size_t>(line.events[kk])].time));
   }
   return *slot;
 }
@@ -102,8 +116,8 @@ ArcSensitivity DerivativeTape::arcUntil(int body, int k, double t) {
   const auto found = until_.find({body, k, t});
   if (found != until_.end()) return found->second;
   if (look_) look_();
-  if (until_.size() == kRemembered) until_.clear();
-  return until_[{body, k, t}] = sensitivity(motion_, body, k, t);
+  if (until_.size() == kRemembered) until_.clear(), shared_.clear();
+  return until_[{body, k, t}] = sensitivity(body, k, t);
 }
 
 const SingleImpact* DerivativeTape::singleImpact(int event) {
@@ -187,7 +201,9 @@ void Reliability::passArc(const Motion& motion, int body, int k) {
   const std::size_t b = checkedIndex("Reliability::passArc", "body", body, motion.world_lines.size());
   const std::vector<Arc>& arcs = motion.world_lines[b].arcs;
   const Arc& arc = arcs[checkedIndex("Reliability::passArc", "arc", k, arcs.size())];
-  if (arc.trajectory().constrained()) passConstrained(motion, body, arc, &arc == &arcs.back() ? motion.end : (&arc + 1)->start());
+  const double until = &arc == &arcs.back() ? motion.end : (&arc + 1)->start();
+  if (arc.trajectory().constrained()) passConstrained(motion, body, arc, until);
+  if (const GroupPath* group = arc.trajectory().group()) passGroup(motion, *group, until);
   if (beginsToSlip(arc)) passBeginning(motion, body, k);
   passStill(motion, body, arc);
   if (arc.trajectory().isLoose()) passLoose(motion, body, k);
@@ -221,6 +237,10 @@ void Reliability::passStill(const Motion& motion, int body, const Arc& arc) {
   if (const ConstrainedPath* path = arc.trajectory().constrained()) {
     for (std::size_t k = 0; k < path->contacts().size(); ++k)
       stays(path->contacts()[k].with, !path->scene().with[k].moves(), !path->scene().with[k].has_belt);
+  } else if (const GroupPath* group = arc.trajectory().group()) {
+    for (std::size_t c = 0; c < group->contacts().size(); ++c)
+      for (const auto& [member, with] : {std::pair(group->contacts()[c].member_a, group->contacts()[c].a), std::pair(group->contacts()[c].member_b, group->contacts()[c].b)})
+        if (member < 0) stays(with, !group->scene().with[c].moves(), !group->scene().with[c].has_belt);
   } else if (arc.closedForm()) {
     stays(arc.closedForm()->face, true, true);
   } else if (const RidePath* ride = arc.trajectory().ride()) {
@@ -260,14 +280,25 @@ void Reliability::passBeginning(const Motion& motion, int body, int k) {
 
 void Reliability::passConstrained(const Motion& motion, int body, const Arc& arc, double until) {
   const ConstrainedPath& path = *arc.trajectory().constrained();
-  const ConstrainedPath::NearMiss miss = path.nearestMiss(until);
+  const PathNearMiss miss = path.nearestMiss(until);
+  passNearMiss(motion, miss, body, path.contacts().empty() ? body : path.contacts()[static_cast<std::size_t>(std::max(0, miss.guard.contact))].with);
+}
+
+// Of all bodies that share the path: the derivative goes back to what each of them starts from.
+void Reliability::passGroup(const Motion& motion, const GroupPath& path, double until) {
+  const PathNearMiss miss = path.nearestMiss(until);
+  const GroupContact& at = path.contacts()[static_cast<std::size_t>(std::max(0, miss.guard.contact))];
+  passNearMiss(motion, miss, at.a, at.b);
+  const std::vector<SharedLinearization::Member> members = path.membersIn(motion);
+  for (std::size_t slot = 0; slot < members.size(); ++slot)
+    if (beginsToSlip(path, slot)) passBeginning(motion, members[slot].body, members[slot].arc);
+}
+
+void Reliability::passNearMiss(const Motion& motion, const PathNearMiss& miss, int a, int b) {
   smallest_margin = std::min(smallest_margin, miss.margin);
   if (!reliable || !(miss.margin < kReliableMargin)) return;
   reliable = false;
-  const auto nameOfBody = [&](int b) { return "'" + motion.scene->bodies[static_cast<std::size_t>(b)].name + "'"; };
-  message = textOf(6, "at t = ", miss.time, " s the contact of ", nameOfBody(body), " with ",
-                   nameOfBody(path.contacts()[static_cast<std::size_t>(miss.guard.contact)].with), " nearly ",
-                   nameOf(miss.guard.cause), " (margin ", miss.margin, ")");
+  message = nearly(motion, miss, a, b);
 }
 
 namespace {

@@ -15,14 +15,20 @@ namespace carom {
 
 namespace adjoint_detail {
 class EventLinearization;
+class GroupPath;
 class SingleImpact;
+class SharedLinearization;
+class Trajectory;
 class TrajectoryLinearization;
+struct PathNearMiss;
 }
 
 /// Sensitivity of the state of a body at a time on an arc to the start of the arc and the scene.
 struct ArcSensitivity : RotationSensitivity {
   /// Of any trajectory but a flight, whose rotation alone has a sensitivity; null for a flight.
   std::shared_ptr<const adjoint_detail::TrajectoryLinearization> trajectory;
+  /// Of one that several bodies share; null for any other.
+  std::shared_ptr<const adjoint_detail::SharedLinearization> shared;
 };
 
 /// When a state is read: at a fixed time, or just before or after an event (then the time varies with the scene
@@ -110,6 +116,8 @@ struct Reliability {
 
  private:
   void passConstrained(const Motion& motion, int body, const Arc& arc, double until);
+  void passGroup(const Motion& motion, const adjoint_detail::GroupPath& path, double until);
+  void passNearMiss(const Motion& motion, const adjoint_detail::PathNearMiss& miss, int a, int b);
   void passBeginning(const Motion& motion, int body, int arc);
   void passLoose(const Motion& motion, int body, int arc);
   void passStill(const Motion& motion, int body, const Arc& arc);
@@ -140,10 +148,14 @@ class DerivativeTape {
   const adjoint_detail::SingleImpact* singleImpact(int event);
 
  private:
+  ArcSensitivity sensitivity(int body, int k, double t);
+
   const Motion& motion_;
   std::function<void()> look_;  // may be empty
   std::vector<std::vector<std::unique_ptr<ArcSensitivity>>> arcs_;
   std::map<std::tuple<int, int, double>, ArcSensitivity> until_;  // by body, arc and time
+  // one for all bodies of a trajectory
+  std::map<std::pair<const adjoint_detail::Trajectory*, double>, std::shared_ptr<const adjoint_detail::SharedLinearization>> shared_;
   std::vector<std::unique_ptr<adjoint_detail::EventLinearization>> events_;
   std::vector<std::unique_ptr<adjoint_detail::SingleImpact>> single_impacts_;
   std::vector<int> materials_;  // of the bodies; -1 for none

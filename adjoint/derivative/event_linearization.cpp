@@ -184,8 +184,10 @@ double EventLinearization::guardTangent(const std::vector<StateDerivative>& befo
                                         const std::vector<BodyModelDerivative>& dmodel) const {
   double d = 0;
   if (guard().by_path) {
-    const auto body = static_cast<std::size_t>(event().participants[0].body);
-    return guard().by_path->by_state.dot(before[0]) + guard().by_path->tangent(dscene, dmodel[body]);
+    std::vector<BodyModelDerivative> dmodels;
+    for (const Participant& p : event().participants) dmodels.push_back(dmodel[static_cast<std::size_t>(p.body)]);
+    for (std::size_t i = 0; i < guard().by_path->by_state.size(); ++i) d += guard().by_path->by_state[i].dot(before[i]);
+    return d + guard().by_path->tangent(dscene, dmodels);
   }
   for (const Part& part : parts())
     if (!part.guard.isZero(0)) d += part.guard.dot(contactTangent(part, event(), before, dscene, dmodel));

@@ -22,9 +22,9 @@ double BodyStateRate::dot(const StateSeed& s) const {
 }
 
 StateDerivative MotionTangent::stateTangent(int body, int k, double t) const {
-  const auto b = static_cast<std::size_t>(body), kk = static_cast<std::size_t>(k);
-  return arcTangent(tape_->motion().world_lines[b].arcs[kk], t, tape_->arcUntil(body, k, t), starts_[b][kk], direction_,
-                    dmodels_[b]);
+  const auto start_of = [&](int of, int arc) { return starts_[static_cast<std::size_t>(of)][static_cast<std::size_t>(arc)]; };
+  const auto model_of = [&](int of) { return dmodels_[static_cast<std::size_t>(of)]; };
+  return arcTangent(tape_->motion(), body, k, t, tape_->arcUntil(body, k, t), start_of, direction_, model_of);
 }
 
 BodyStateRate MotionTangent::at(int body, const Instant& instant) const {
@@ -85,6 +85,8 @@ MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const
     t.dmodels_.push_back(modelTangent(body, (*motion.models)[b], direction.bodies[b]));
     t.starts_[b].push_back(startTangent(body, (*motion.models)[b], direction.bodies[b], t.dmodels_[b]));
   }
+  const auto start_of = [&](int body, int arc) { return t.starts_[static_cast<std::size_t>(body)][static_cast<std::size_t>(arc)]; };
+  const auto model_of = [&](int body) { return t.dmodels_[static_cast<std::size_t>(body)]; };
   for (std::size_t e = 0; e < motion.events.size(); ++e) {
     const Event& event = motion.events[e];
     if (influence && !influence->event(static_cast<int>(e))) {
@@ -95,9 +97,7 @@ MotionTangent tangent(DerivativeTape& tape, const SceneTangent& direction, const
     }
     std::vector<StateDerivative> before;
     for (const Participant& p : event.participants) {
-      const auto b = static_cast<std::size_t>(p.body), k = static_cast<std::size_t>(p.arc);
-      before.push_back(arcTangent(motion.world_lines[b].arcs[k], event.time, tape.until(p, event.time), t.starts_[b][k],
-                                  direction, t.dmodels_[b]));
+      before.push_back(arcTangent(motion, p.body, p.arc, event.time, tape.until(p, event.time), start_of, direction, model_of));
     }
     const EventLinearization::Tangent d = tape.event(static_cast<int>(e)).tangent(before, direction, t.dmodels_);
     t.event_time_.push_back(d.time);

@@ -20,6 +20,7 @@ class GroupPath;
 class RidePath;
 struct PathGuard;
 struct PathStart;
+class SharedLinearization;
 class TrajectoryLinearization;
 
 /// Bounds over a stretch of a trajectory.
@@ -77,6 +78,11 @@ class Trajectory {
   /// From the start of arc k of a body to time t, linearised; null: a flight, whose rotation alone has a sensitivity
   /// (Arc::rotationSensitivity). Keeps a reference to the motion.
   virtual std::shared_ptr<const TrajectoryLinearization> linearise(const Motion& motion, int body, int k, double t) const = 0;
+  /// The same of all bodies that share it; null: it has one, or is none of a group.
+  virtual std::shared_ptr<const SharedLinearization> lineariseShared(const Motion&, double t) const {
+    (void)t;
+    return nullptr;
+  }
   /// Of a flight, see Arc::rotationSensitivity.
   virtual RotationSensitivity rotationSensitivity(const Arc&, double, Tier, bool) const { return {}; }
   /// The row of the guard by which it ends at an event; null where it is that of the contacts (EventGuard).

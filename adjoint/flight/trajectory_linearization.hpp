@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "adjoint/scene/body_model.h"
 
@@ -21,12 +23,37 @@ class TrajectoryLinearization {
                                    BodyModelDerivative& model_bar) const = 0;
 };
 
-/// The row of the guard of a trajectory by the state at its end, and by all else.
+/// The same of a trajectory that several bodies share, from the starts of their arcs, in the order of their slots.
+class SharedLinearization {
+ public:
+  struct Member {
+    int body, arc;
+  };
+  /// What it starts from, or the adjoints of that.
+  struct Starts {
+    std::vector<StateDerivative> state;
+    std::vector<BodyModelDerivative> model;
+    explicit Starts(std::size_t members) : state(members), model(members) {}
+  };
+  virtual ~SharedLinearization() = default;
+
+  const std::vector<Member>& members() const { return members_; }
+  /// Of the state of the body of a slot.
+  virtual StateDerivative tangent(std::size_t slot, const Starts& starts, const SceneTangent& dscene) const = 0;
+  /// Its adjoint; adds to those of the scene.
+  virtual Starts pullback(std::size_t slot, const StateDerivative& end_bar, SceneGradient& scene_bar) const = 0;
+
+ protected:
+  std::vector<Member> members_;
+};
+
+/// The row of the guard of a trajectory by the states of its bodies at its end, and by all else: of the first participants of its event, in
+/// their order.
 struct PathGuard {
-  StateDerivative by_state;
-  double by_time = 0;  ///< beyond that by the state: of supports that move
-  std::function<double(const SceneTangent&, const BodyModelDerivative&)> tangent;
-  std::function<void(double sigma, SceneGradient&, BodyModelDerivative&)> pullback;
+  std::vector<StateDerivative> by_state;
+  double by_time = 0;  ///< beyond that by the states: of supports that move
+  std::function<double(const SceneTangent&, std::span<const BodyModelDerivative>)> tangent;
+  std::function<void(double sigma, SceneGradient&, std::span<BodyModelDerivative>)> pullback;
 };
 
 /// What a trajectory does to the state with which it starts, of one participant, at the time of the event.

@@ -91,10 +91,10 @@ void GroupForces::solve(const std::vector<GroupContact>& contacts, const GroupIn
     if (!y_.allFinite()) redundant_ = true;
   }
   if (redundant_) {
-    double arm = 0;
+    arm_ = 0;
     for (std::size_t k = 0; k < contacts.size(); ++k)
       for (const int m : {contacts[k].member_a, contacts[k].member_b})
-        if (m >= 0) arm = std::max(arm, (now.contacts[k].point - now.members[static_cast<std::size_t>(m)].x).norm());
+        if (m >= 0) arm_ = std::max(arm_, (now.contacts[k].point - now.members[static_cast<std::size_t>(m)].x).norm());
     shares_.setZero(rowAt(row_.size()), wrench_.size());
     for (std::size_t i = 0; i < row_.size(); ++i) {
       const GroupContact& c = contacts[contact_of_[i]];
@@ -104,7 +104,7 @@ void GroupForces::solve(const std::vector<GroupContact>& contacts, const GroupIn
       const auto put = [&](int m, const Vec6& row) {
         if (m < 0) return;
         shares_.row(rowAt(i)).segment<3>(6 * m) += row.head<3>().transpose() / compliance;
-        shares_.row(rowAt(i)).segment<3>(6 * m + 3) += row.tail<3>().transpose() / (compliance * arm);
+        shares_.row(rowAt(i)).segment<3>(6 * m + 3) += row.tail<3>().transpose() / (compliance * arm_);
       };
       put(c.member_a, row_[i].a), put(c.member_b, row_[i].b);
     }

@@ -38,6 +38,16 @@ class GroupForces {
   Vec3 responseAt(const Eigen::VectorXd& wrench, std::size_t k) const;
   const Eigen::VectorXd& wrench() const { return wrench_; }
 
+  /// y, and where the rows of contact k begin in it.
+  const Eigen::VectorXd& solution() const { return y_; }
+  Eigen::Index unknown(std::size_t k) const { return first_[k]; }
+  /// y = -inverse() b.
+  Eigen::MatrixXd inverse() const { return reduced_ ? Eigen::MatrixXd(shares_ * reduced_->pseudoInverse()) : square_.inverse(); }
+  /// Whether redundant forces are shared: y = E^-1 C w, moments of w divided by shareArm().
+  bool shares() const { return reduced_.has_value(); }
+  Eigen::VectorXd shareWeights() const { return -reduced_->solve(b_); }
+  double shareArm() const { return arm_; }
+
  private:
   using Vec6 = Eigen::Matrix<double, 6, 1>;
   struct Sided {
@@ -58,6 +68,7 @@ class GroupForces {
   Eigen::VectorXd b_, y_, wrench_;
   PartialLu square_;
   std::optional<CompleteOrthogonal> reduced_;
+  double arm_ = 0;  // m, of what shares_ has of moments
   std::vector<Vec3> force_;
 };
 

@@ -4,17 +4,6 @@
 #include "adjoint/group/group_shares.hpp"
 
 namespace carom::adjoint_detail {
-namespace {
-
-Pose poseOf(const GroupScene& scene, const std::vector<GroupContact>& contacts, const std::vector<State>& states, std::size_t k, bool of_a, double t) {
-  const int member = of_a ? contacts[k].member_a : contacts[k].member_b;
-  if (member < 0) return scene.with[k].poseAt(t);
-  const State& s = states[static_cast<std::size_t>(member)];
-  return {s.x, scene.members[static_cast<std::size_t>(member)].model->shapeToWorld(s.q.toRotationMatrix())};
-}
-
-}  // namespace
-
 std::vector<ConstrainedGuard> guardsOf(const GroupScene& scene, const std::vector<GroupContact>& contacts, const std::vector<State>& states, double t) {
   std::vector<ConstrainedGuard> guards;
   const auto* bodies = dynamic_cast<const BodyGeometry*>(scene.geometry.get());

@@ -3,6 +3,13 @@
 
 namespace carom::adjoint_detail {
 
+Pose poseOf(const GroupScene& scene, const std::vector<GroupContact>& contacts, const std::vector<State>& states, std::size_t k, bool of_a, double t) {
+  const int member = of_a ? contacts[k].member_a : contacts[k].member_b;
+  if (member < 0) return scene.with[k].poseAt(t);
+  const State& s = states[static_cast<std::size_t>(member)];
+  return {s.x, scene.members[static_cast<std::size_t>(member)].model->shapeToWorld(s.q.toRotationMatrix())};
+}
+
 void placeInstant(const GroupScene& scene, const std::vector<GroupContact>& contacts, const std::vector<State>& states, double t,
                   GroupInstant& now) {
   now.members.resize(states.size());

@@ -36,6 +36,8 @@ struct GroupInstant {
   std::vector<GroupContactInstant> contacts;
 };
 
+/// Of body a of contact k, or of b, at time t.
+Pose poseOf(const GroupScene& scene, const std::vector<GroupContact>& contacts, const std::vector<State>& states, std::size_t k, bool of_a, double t);
 /// All but the directions of slip at time t.
 void placeInstant(const GroupScene& scene, const std::vector<GroupContact>& contacts, const std::vector<State>& states, double t,
                   GroupInstant& now);

@@ -7,6 +7,7 @@
 #include "adjoint/base/errors.h"
 #include "adjoint/base/refuse.hpp"
 #include "adjoint/constrained/slip_ahead.hpp"
+#include "adjoint/constrained/slip_stop.hpp"
 #include "adjoint/group/group_guards.hpp"
 #include "adjoint/group/group_start.hpp"
 #include "adjoint/numeric/elementary.hpp"
@@ -15,10 +16,6 @@ namespace carom::adjoint_detail {
 namespace {
 
 constexpr double kMostLeftOfSpeed = 1e-9;
-
-[[noreturn]] void refuseDerivative() {
-  throw NotComputable("derivatives through bodies that move on each other are not known yet");
-}
 
 }  // namespace
 
@@ -188,19 +185,75 @@ std::vector<State> GroupPath::statesAt(double t) const {
   return states;
 }
 
-StateDerivative GroupPath::rateAt(const Arc& arc, double t, const State&) const {
-  const std::size_t m = slotOf(arc);
+std::optional<std::size_t> GroupPath::contactThatStops() const {
+  if (!end_ || end_->guard.cause != TransitionCause::sticks) return std::nullopt;
+  return static_cast<std::size_t>(end_->guard.contact);
+}
+
+// Where a slip is 0 it goes along its acceleration, u' = -|u'| d, which the direction at a node comes near to: Newton's method on
+// (n x d).u' = 0, for all that stop there together.
+void GroupPath::alignStop(GroupInstant& now) const {
+  const std::optional<std::size_t> first = contactThatStops();
+  const auto stops = [&](std::size_t k) {
+    return contacts_[k].turns() && !(now.contacts[k].slipVelocity().norm() > PathLimits::kStraightAnyway * scene_.speed);
+  };
+  if (!first || !stops(*first)) return;
+  std::vector<std::size_t> turning;
+  for (std::size_t k = 0; k < contacts_.size(); ++k)
+    if (stops(k)) turning.push_back(k);
+  Eigen::MatrixXd J(turning.size(), turning.size());
+  Eigen::VectorXd r(turning.size());
+  for (int round = 0; round < kAlignRounds; ++round) {
+    GroupForces forces;
+    forces.solve(contacts_, now, redundant_);
+    for (std::size_t j = 0; j < turning.size(); ++j) {
+      const Eigen::VectorXd answer = forces.answerToTurn(turning[j]);
+      for (std::size_t i = 0; i < turning.size(); ++i) {
+        const GroupContactInstant& c = now.contacts[turning[i]];
+        const Vec3 across = c.n.cross(c.slip), rate = forces.slipRate(turning[i]);
+        J(rowAt(i), rowAt(j)) = across.dot(forces.responseAt(answer, turning[i])) - (i == j ? c.slip.dot(rate) : 0.0);
+        r[rowAt(i)] = across.dot(rate);
+      }
+    }
+    const std::optional<Eigen::VectorXd> turn = turnsAtStop(J, r, scene_.pull());
+    if (!turn) return;
+    for (std::size_t i = 0; i < turning.size(); ++i) {
+      GroupContactInstant& c = now.contacts[turning[i]];
+      c.slip = (c.slip + (*turn)[rowAt(i)] * c.n.cross(c.slip)).normalized();
+    }
+  }
+}
+
+GroupInstant GroupPath::instantAt(double t) const {
   std::vector<Vec3> slip;
   if (steps_.move() && t > start_time_) steps_.at(t, known_).placeSlips(t, slip);
   else
     for (const GroupContact& c : contacts_) slip.push_back(c.slip);
   GroupInstant now = instantOf(scene_, contacts_, statesAt(t), t, slip);
-  for (std::size_t k = 0; k < contacts_.size(); ++k)
-    if (contacts_[k].turns()) now.contacts[k].slip = inPlane(slip[k], now.contacts[k].n);
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    if (!contacts_[k].turns()) continue;
+    GroupContactInstant& c = now.contacts[k];
+    if (const Vec3 u = c.slipVelocity(); u.norm() > kNoDirection * scene_.speed) c.slip = u;
+    c.slip = inPlane(c.slip, c.n);
+  }
+  if (t > start_time_) alignStop(now);
+  return now;
+}
+
+Eigen::VectorXd GroupPath::ratesAt(double t) const {
+  const GroupInstant now = instantAt(t);
   GroupForces forces;
   forces.solve(contacts_, now, redundant_);
+  Eigen::VectorXd rates(12 * rowAt(start_.size()));
+  for (std::size_t m = 0; m < start_.size(); ++m)
+    rates.segment<12>(12 * rowAt(m)) << now.members[m].v, now.members[m].w, forces.acceleration(m), forces.moment(m);
+  return rates;
+}
+
+StateDerivative GroupPath::rateAt(const Arc& arc, double t, const State&) const {
+  const Eigen::VectorXd of = ratesAt(t).segment<12>(12 * rowAt(slotOf(arc)));
   StateDerivative rate;
-  rate.x = now.members[m].v, rate.theta = now.members[m].w, rate.v = forces.acceleration(m), rate.L = forces.moment(m);
+  rate.x = of.head<3>(), rate.theta = of.segment<3>(3), rate.v = of.segment<3>(6), rate.L = of.tail<3>();
   return rate;
 }
 
@@ -221,7 +274,10 @@ std::optional<std::pair<std::vector<State>, double>> GroupPath::beyondEnd() cons
   return std::pair(step->statesAt(later), later);
 }
 
-std::shared_ptr<const TrajectoryLinearization> GroupPath::linearise(const Motion&, int, int, double) const { refuseDerivative(); }
-std::shared_ptr<const PathGuard> GroupPath::guardOfEnd(const Motion&, const Event&) const { refuseDerivative(); }
+PathNearMiss GroupPath::nearestMiss(double until) const {
+  return adjoint_detail::nearestMiss(
+      guards_, steps_, known_, until, scene_.length / scene_.speed, [&](const GroupStep& step, double t) { return valuesAt(step, t); },
+      [&](const ConstrainedGuard& guard) { return shareOfMargin(guard, scene_.length); });
+}
 
 }  // namespace carom::adjoint_detail

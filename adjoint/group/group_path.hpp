@@ -6,6 +6,7 @@
 
 #include "adjoint/constrained/path_ending.hpp"
 #include "adjoint/flight/trajectory.hpp"
+#include "adjoint/flight/trajectory_linearization.hpp"
 #include "adjoint/group/group_step.hpp"
 
 namespace carom::adjoint_detail {
@@ -33,7 +34,8 @@ class GroupPath final : public Trajectory {
   std::size_t series() const override { return steps_.size(); }
   TrajectoryEnd end() const override;
   std::shared_ptr<Trajectory> fork() const override { return std::make_shared<GroupPath>(*this); }
-  std::shared_ptr<const TrajectoryLinearization> linearise(const Motion& motion, int body, int k, double t) const override;
+  std::shared_ptr<const TrajectoryLinearization> linearise(const Motion&, int, int, double) const override { return nullptr; }
+  std::shared_ptr<const SharedLinearization> lineariseShared(const Motion& motion, double t) const override;
   std::shared_ptr<const PathGuard> guardOfEnd(const Motion& motion, const Event& event) const override;
   const GroupPath* group() const override { return this; }
 
@@ -44,6 +46,20 @@ class GroupPath final : public Trajectory {
   const std::vector<State>& startStates() const { return start_; }
   /// That a step counts for: forces are solved for all contacts at once.
   std::size_t workOfStep() const { return kConstrainedStep * std::max<std::size_t>(1, contacts_.size() * contacts_.size() / 4); }
+  bool redundant() const { return redundant_; }
+  double start() const { return start_time_; }
+  const PathSteps<GroupStep>& allSteps() const { return steps_; }
+  const GroupStep& stepAt(double t) const { return steps_.at(t, known_); }
+  /// The contact whose slip comes to 0 as it ends, if one does.
+  std::optional<std::size_t> contactThatStops() const;
+  /// The group at time t, with the directions of its slips.
+  GroupInstant instantAt(double t) const;
+  /// d/dt of (x, theta, v, L) of all members there, 12 rows each.
+  Eigen::VectorXd ratesAt(double t) const;
+  /// Where a guard comes nearest to 0 and turns away from it, up to a time.
+  PathNearMiss nearestMiss(double until) const;
+  /// Bodies and arcs of a motion that share the path, by slot. Throws NotComputable where one has none any more.
+  std::vector<SharedLinearization::Member> membersIn(const Motion& motion) const;
   bool ended() const { return end_ || known_ >= until_; }
   const std::optional<Ending>& ending() const { return end_; }
   /// Where it ends as a contact slips or lifts: the states a little later, and when, in the same modes.
@@ -55,6 +71,7 @@ class GroupPath final : public Trajectory {
   GroupStep nextStep();
   std::vector<Vec3> slipAfter() const;
   double lookAtSlips(GroupStepper::Start& start) const;
+  void alignStop(GroupInstant& now) const;
   bool passesBy(const GroupStep& step, const Ending& end) const;
   std::vector<double> valuesAt(const GroupStep& step, double t) const;
   void take(GroupStep step);

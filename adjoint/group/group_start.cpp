@@ -2,6 +2,7 @@
 #include "adjoint/group/group_start.hpp"
 
 #include "adjoint/impact/complementarity.hpp"
+#include "adjoint/numeric/decompositions.hpp"
 #include "adjoint/numeric/so3.hpp"
 
 namespace carom::adjoint_detail {
@@ -9,36 +10,59 @@ namespace {
 
 using Eigen::Index;
 
-// A row of velocities of all members: of one direction at a contact.
-Eigen::VectorXd rowOf(const GroupInstant& now, const GroupContact& of, const GroupContactInstant& c, const Vec3& along) {
-  Eigen::VectorXd row = Eigen::VectorXd::Zero(6 * rowAt(now.members.size()));
+// Rows that depend on others to this share have no part of their own.
+constexpr double kDependentRows = 1e-10;
+
+void putRow(const GroupInstant& now, const GroupContact& of, const GroupContactInstant& c, const Vec3& along, Eigen::Index row, Eigen::MatrixXd& C) {
   const auto put = [&](int member, double sign) {
     if (member < 0) return;
     const Vec3 r = c.point - now.members[static_cast<std::size_t>(member)].x;
-    row.segment<3>(6 * member) = sign * along;
-    row.segment<3>(6 * member + 3) = sign * r.cross(along);
+    C.row(row).segment<3>(6 * member) = sign * along.transpose();
+    C.row(row).segment<3>(6 * member + 3) = sign * r.cross(along).transpose();
   };
   put(of.member_a, 1), put(of.member_b, -1);
-  return row;
+}
+
+// M^-1 C^T
+Eigen::MatrixXd movedBy(const GroupInstant& now, const Eigen::MatrixXd& C) {
+  Eigen::MatrixXd moved(C.cols(), C.rows());
+  for (std::size_t m = 0; m < now.members.size(); ++m) {
+    moved.middleRows<3>(6 * rowAt(m)) = now.members[m].inverse_mass * C.middleCols<3>(6 * rowAt(m)).transpose();
+    moved.middleRows<3>(6 * rowAt(m) + 3) = now.members[m].A * C.middleCols<3>(6 * rowAt(m) + 3).transpose();
+  }
+  return moved;
 }
 
 // What of (v, w), or of (x, theta), makes these rows 0, from where they come to `value`.
-Eigen::VectorXd undoing(const GroupInstant& now, const std::vector<Eigen::VectorXd>& rows, const std::vector<double>& value) {
-  const Index n = rowAt(rows.size()), size = 6 * rowAt(now.members.size());
-  Eigen::MatrixXd C(n, size), moved(size, n);
-  for (Index i = 0; i < n; ++i) {
-    const Eigen::VectorXd& row = rows[static_cast<std::size_t>(i)];
-    C.row(i) = row.transpose();
-    for (std::size_t m = 0; m < now.members.size(); ++m) {
-      moved.block<3, 1>(6 * rowAt(m), i) = now.members[m].inverse_mass * row.segment<3>(6 * rowAt(m));
-      moved.block<3, 1>(6 * rowAt(m) + 3, i) = now.members[m].A * row.segment<3>(6 * rowAt(m) + 3);
-    }
-  }
-  const Eigen::VectorXd b = Eigen::Map<const Eigen::VectorXd>(value.data(), n);
-  return moved * LeastNormSolve(C * moved, b).y;
+Eigen::VectorXd undone(const GroupInstant& now, const Eigen::MatrixXd& C, const Eigen::VectorXd& value) {
+  const Eigen::MatrixXd moved = movedBy(now, C);
+  return moved * LeastNormSolve(C * moved, value).y;
 }
 
 }  // namespace
+
+Eigen::MatrixXd gapRows(const GroupInstant& now, const std::vector<GroupContact>& contacts) {
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(rowAt(contacts.size()), 6 * rowAt(now.members.size()));
+  for (std::size_t k = 0; k < contacts.size(); ++k) putRow(now, contacts[k], now.contacts[k], now.contacts[k].n, rowAt(k), C);
+  return C;
+}
+
+Eigen::MatrixXd speedRows(const GroupInstant& now, const std::vector<GroupContact>& contacts) {
+  Index rows = 0, row = 0;
+  for (const GroupContact& c : contacts) rows += c.stands() ? 3 : 1;
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(rows, 6 * rowAt(now.members.size()));
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    if (!contacts[k].stands()) putRow(now, contacts[k], now.contacts[k], now.contacts[k].n, row++, C);
+    else
+      for (int i = 0; i < 3; ++i) putRow(now, contacts[k], now.contacts[k], Vec3::Unit(i), row++, C);
+  }
+  return C;
+}
+
+Eigen::MatrixXd undoing(const GroupInstant& now, const Eigen::MatrixXd& C) {
+  const Eigen::MatrixXd moved = movedBy(now, C);
+  return moved * CompleteOrthogonal(C * moved, kDependentRows).pseudoInverse();
+}
 
 std::vector<State> groupStart(const GroupScene& scene, const std::vector<GroupContact>& contacts, std::vector<State> states, double t,
                               int rounds) {
@@ -46,13 +70,9 @@ std::vector<State> groupStart(const GroupScene& scene, const std::vector<GroupCo
   if (contacts.empty()) return states;
   for (int round = 0; round < rounds; ++round) {
     const GroupInstant now = instantOf(scene, contacts, states, t, none);
-    std::vector<Eigen::VectorXd> rows;
-    std::vector<double> gaps;
-    for (std::size_t k = 0; k < contacts.size(); ++k) {
-      rows.push_back(rowOf(now, contacts[k], now.contacts[k], now.contacts[k].n));
-      gaps.push_back(now.contacts[k].gap);
-    }
-    const Eigen::VectorXd move = undoing(now, rows, gaps);
+    Eigen::VectorXd gaps(contacts.size());
+    for (std::size_t k = 0; k < contacts.size(); ++k) gaps[rowAt(k)] = now.contacts[k].gap;
+    const Eigen::VectorXd move = undone(now, gapRows(now, contacts), gaps);
     for (std::size_t m = 0; m < states.size(); ++m) {
       const Vec3 turn = move.segment<3>(6 * rowAt(m) + 3);
       states[m].x += move.segment<3>(6 * rowAt(m));
@@ -61,18 +81,15 @@ std::vector<State> groupStart(const GroupScene& scene, const std::vector<GroupCo
   }
   for (int round = 0; round < rounds; ++round) {
     const GroupInstant now = instantOf(scene, contacts, states, t, none);
-    std::vector<Eigen::VectorXd> rows;
-    std::vector<double> speeds;
+    const Eigen::MatrixXd C = speedRows(now, contacts);
+    Eigen::VectorXd speeds(C.rows());
+    Index row = 0;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       const GroupContactInstant& c = now.contacts[k];
-      if (!contacts[k].stands()) {
-        rows.push_back(rowOf(now, contacts[k], c, c.n));
-        speeds.push_back(c.n.dot(c.u));
-        continue;
-      }
-      for (int i = 0; i < 3; ++i) rows.push_back(rowOf(now, contacts[k], c, Vec3::Unit(i))), speeds.push_back(c.u[i]);
+      if (!contacts[k].stands()) speeds[row++] = c.n.dot(c.u);
+      else speeds.segment<3>(row) = c.u, row += 3;
     }
-    const Eigen::VectorXd change = undoing(now, rows, speeds);
+    const Eigen::VectorXd change = undone(now, C, speeds);
     for (std::size_t m = 0; m < states.size(); ++m) {
       const Mat3 R = states[m].q.toRotationMatrix();
       states[m].v += change.segment<3>(6 * rowAt(m));

@@ -10,4 +10,12 @@ namespace carom::adjoint_detail {
 std::vector<State> groupStart(const GroupScene& scene, const std::vector<GroupContact>& contacts, std::vector<State> states, double t,
                               int rounds = 2);
 
+
+/// Rows of the gaps by (x, theta) of all members, 6 columns each.
+Eigen::MatrixXd gapRows(const GroupInstant& now, const std::vector<GroupContact>& contacts);
+/// Rows of n.u of each contact, or of u where there is no slip at the start, by (v, w) of all members.
+Eigen::MatrixXd speedRows(const GroupInstant& now, const std::vector<GroupContact>& contacts);
+/// M^-1 C^T (C M^-1 C^T)^+, by which a change of (v, w), or of poses, undoes that of rows C.
+Eigen::MatrixXd undoing(const GroupInstant& now, const Eigen::MatrixXd& C);
+
 }  // namespace carom::adjoint_detail

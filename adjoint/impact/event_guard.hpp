@@ -12,7 +12,7 @@ namespace carom::adjoint_detail {
 /// What the guard of a transition is made of beyond its contacts' gaps, normals and points:
 ///   slip_ends: t . u at the first contact, t the direction of slip there, held: u is 0 at the root;
 ///   leaves: weight . (p - x - R border), (x, R) of a body whose feature ends there (see FeatureLimit);
-///   of a path that is integrated: its own row, of the one participant.
+///   of a path that is integrated: its own row, of the first participants.
 template <class S>
 struct EventGuard {
   std::shared_ptr<const PathGuard> by_path;
@@ -48,7 +48,10 @@ struct EventGuard {
   S rate(const ImpactPass<S>& impact, const std::vector<StateDerivativeOf<S>>& rates) const {
     S d = 0;
     if constexpr (std::is_same_v<S, double>) {
-      if (by_path) return by_path->by_state.dot(rates[0]) + by_path->by_time;
+      if (by_path) {
+        for (std::size_t i = 0; i < by_path->by_state.size(); ++i) d += by_path->by_state[i].dot(rates[i]);
+        return d + by_path->by_time;
+      }
     }
     if (by_slip) {  // A is that of a ball, or nothing turns
       const auto& c = impact.inputs().contacts[0];

@@ -273,8 +273,10 @@ class EventPass {
                      std::vector<ModelBar>& model_bar) const {
     if constexpr (std::is_same_v<S, double>) {
       if (guard_.by_path) {
-        before_bar[0].addScaled(sigma, guard_.by_path->by_state);
-        guard_.by_path->pullback(sigma, scene_bar, model_bar[static_cast<std::size_t>(event_.participants[0].body)]);
+        for (std::size_t i = 0; i < guard_.by_path->by_state.size(); ++i) before_bar[i].addScaled(sigma, guard_.by_path->by_state[i]);
+        std::vector<ModelBar> models(event_.participants.size());
+        guard_.by_path->pullback(sigma, scene_bar, models);
+        for (std::size_t i = 0; i < models.size(); ++i) model_bar[static_cast<std::size_t>(event_.participants[i].body)] += models[i];
         return;
       }
     }

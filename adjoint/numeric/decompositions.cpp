@@ -18,6 +18,10 @@ MatrixXd PartialLu::inverse() const { return lu_.inverse(); }
 FullLu::FullLu(const MatrixXd& A, double threshold) : lu_(A) { lu_.setThreshold(threshold); }
 Eigen::Index FullLu::rank() const { return lu_.rank(); }
 bool FullLu::isInvertible() const { return lu_.isInvertible(); }
+MatrixXd FullLu::kernel() const {
+  if (lu_.dimensionOfKernel() == 0) return MatrixXd(lu_.cols(), 0);  // of which Eigen makes a column of 0
+  return lu_.kernel();
+}
 MatrixXd FullLu::solveColumns(const MatrixXd& B) const { return lu_.solve(B); }
 
 PivotingQr::PivotingQr(const MatrixXd& A, double threshold) : qr_(A) { qr_.setThreshold(threshold); }

@@ -31,6 +31,7 @@ class FullLu {
   FullLu(const Eigen::MatrixXd& A, double threshold);
   Eigen::Index rank() const;
   bool isInvertible() const;
+  Eigen::MatrixXd kernel() const;  ///< a basis in its columns; none where there is only 0
   Eigen::MatrixXd solveColumns(const Eigen::MatrixXd& B) const;
 
  private:

@@ -63,8 +63,8 @@ DualState Lanes::stateAt(int body, int k, const Num& t, const State& now, const 
   const StateDerivative flow = arc(body, k).rateAt(t.value, now);
   DualState state = dualState(now);
   for (std::size_t lane = 0; lane < size(); ++lane) {
-    StateDerivative d = arcTangent(arc(body, k), t.value, S, tangents_[lane].start(body, k), directions_[lane].scene,
-                                   tangents_[lane].model(body));
+    StateDerivative d = arcTangent(motion(), body, k, t.value, S, [&](int of, int arc) { return tangents_[lane].start(of, arc); },
+                                   directions_[lane].scene, [&](int of) { return tangents_[lane].model(of); });
     d.addScaled(t.rate[lane], flow);
     setRates(state, d, lane);
   }

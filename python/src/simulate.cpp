@@ -35,7 +35,7 @@ constexpr const char* kSimulateText =
     "message say why. Ctrl-C raises KeyboardInterrupt.\n\n"
     "impact_limit: limit on events of all kinds. step_limit: work limit in counted steps (a step takes roughly one to "
     "several microseconds). lowest_bounce: restitution is 0 for bounces lower than this, m, and the bodies stay in "
-    "contact; 0: no persistent contact. groups: up to 8 bodies may move on each other in lasting contact, without derivatives so far. refuse_overlaps: raise InputError if bodies overlap at the start. "
+    "contact; 0: no persistent contact. groups: up to 8 bodies may move on each other in lasting contact. refuse_overlaps: raise InputError if bodies overlap at the start. "
     "record_events=False: paths alone, in less than half of the memory; they cannot be differentiated. progress: called "
     "every few thousand steps; if it returns False, the motion ends with the status 'stopped'.\n\n"
     "Raises InputError for invalid input.";

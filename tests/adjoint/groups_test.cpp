@@ -5,52 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "adjoint/base/errors.h"
-#include "adjoint/derivative/adjoint.h"
 #include "adjoint/motion/body_geometry.h"
 #include "adjoint/second_order/second_order.h"
 #include "adjoint/simulate/simulate_along.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/compare.h"
+#include "tests/support/group_scenes.h"
 #include "tests/support/scenes.h"
 
 namespace carom::groups {
 namespace {
 
 using namespace test;
-
-constexpr double kG = 9.81;
-const Vec3 kDown(0, 0, -kG);
-
-Motion play(const Scene& scene, double duration) {
-  OdeContacts contacts(scene);
-  SimulateOptions options;
-  options.groups = true;
-  return simulate(scene, contacts, duration, options);
-}
-
-// Materials "rough" and "ice": ice slips on everything.
-Scene sceneOf(double friction, std::vector<Body> bodies, const Vec3& gravity = kDown) {
-  Scene scene = makeScene(gravity, 0, friction, std::move(bodies));
-  scene.materials[0].friction = friction;
-  Material ice = scene.materials[0];
-  ice.name = "ice", ice.friction = 0;
-  scene.materials[0].combine_friction = ice.combine_friction = Combine::minimum;
-  scene.materials.push_back(ice);
-  return scene;
-}
-
-Body onIce(Body body) {
-  body.material = "ice";
-  return body;
-}
-Body iceFloor() { return onIce(fixedBody(makeBox("floor", {40, 40, 1}, {0, 0, -0.5}))); }
-Body withMass(Body body, double mass) {
-  body.mass = mass;
-  return body;
-}
 
 double energyOf(const Motion& m, double t) {
   double energy = 0;
@@ -69,10 +36,8 @@ double energyOf(const Motion& m, double t) {
 // 1 kg at 2 m/s on a plank of 4 kg on ice, mu 0.25: they go on as one after 2 * 4/(5 mu g) s.
 TEST(Groups, ABoxComesToRestOnAPlankOnIce) {
   for (const bool reverse : {false, true}) {
-    Scene scene = sceneOf(0.25, {iceFloor(), withMass(makeBox("plank", {6, 1, 0.1}, {1, 0, 0.05}), 4),
-                                 withMass(makeBox("box", {0.2, 0.2, 0.2}, {0, 0, 0.2}, {2, 0, 0}), 1)});
-    if (reverse) std::ranges::reverse(scene.bodies);
-    const Motion m = play(scene, 1);
+    const Scene scene = inOrder(boxOnPlank(), reverse);
+    const Motion m = playGroups(scene, 1);
     ASSERT_EQ(m.status, MotionStatus::complete) << m.message;
     ASSERT_EQ(m.events.size(), 2u);
     const double t = 0.652395514780836;
@@ -88,10 +53,8 @@ TEST(Groups, ABoxComesToRestOnAPlankOnIce) {
 // A ball without spin on a box on ice: v' = -mu g, V' = mu g/3, slip v - V - r w comes to 0.
 TEST(Groups, ABallRollsOnABoxOnIce) {
   for (const bool reverse : {false, true}) {
-    Scene scene = sceneOf(0.3, {iceFloor(), withMass(makeBox("box", {6, 1, 0.2}, {1, 0, 0.1}), 3),
-                                withMass(makeBall("ball", 0.1, {0, 0, 0.3}, {2, 0, 0}), 1)});
-    if (reverse) std::ranges::reverse(scene.bodies);
-    const Motion m = play(scene, 1);
+    const Scene scene = inOrder(ballOnBox(), reverse);
+    const Motion m = playGroups(scene, 1);
     ASSERT_EQ(m.status, MotionStatus::complete) << m.message;
     ASSERT_EQ(m.events.size(), 2u);
     expectEntries(m.events[1].time, 12 / (23 * 0.3 * kG), 1e-12, "rolls");
@@ -109,7 +72,7 @@ TEST(Groups, ThreeSmoothBallsPart) {
     Scene scene = sceneOf(0.4, {iceFloor(), onIce(withMass(makeBall("left", 0.5, {-0.5, 0, 0.5}), 1)), onIce(withMass(makeBall("right", 0.5, {0.5, 0, 0.5}), 1)),
                                 onIce(withMass(makeBall("top", 0.5, {0, 0, 0.5 + high}), 1))});
     if (reverse) std::ranges::reverse(scene.bodies);
-    const Motion m = play(scene, 0.6);
+    const Motion m = playGroups(scene, 0.6);
     ASSERT_EQ(m.status, MotionStatus::complete) << m.message;
     ASSERT_GE(m.events.size(), 2u);
     const double t = 0.533412282614424;
@@ -140,7 +103,7 @@ TEST(Groups, TwoBlocksSlideDown) {
   };
   for (const bool reverse : {false, true}) {
     const Scene one = sliding(0.2, reverse), two = sliding(0.05, reverse);
-    const Motion m = play(one, T), n = play(two, T);
+    const Motion m = playGroups(one, T), n = playGroups(two, T);
     ASSERT_EQ(m.status, MotionStatus::complete) << m.message;
     ASSERT_EQ(n.status, MotionStatus::complete) << n.message;
     for (const char* name : {"low", "high"}) expectEntries(m.stateAt(bodyIndex(one, name), T).velocity.x(), 1.96186813151552 * T, 1e-12, name);
@@ -151,19 +114,10 @@ TEST(Groups, TwoBlocksSlideDown) {
 
 // A plank of 2 kg on two rollers of 1 kg on a slope of 0.1 rad: 12/11 g sin 0.1.
 TEST(Groups, APlankRollsOnRollers) {
-  const double a = 0.1, T = 0.4;
-  const auto roller = [](const char* name, double x) {
-    Body body = withMass(makeBox(name, {1, 1, 1}, {x, 0, 0.1}), 1);
-    body.shape = Cylinder{0.1, 0.4};
-    body.orientation = Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()));
-    return body;
-  };
+  const double T = 0.4;
   for (const bool reverse : {false, true}) {
-    Scene scene = sceneOf(0.9, {fixedBody(makeBox("floor", {40, 40, 1}, {0, 0, -0.5})), roller("back", -0.5), roller("front", 0.5),
-                                withMass(makeBox("plank", {3, 0.4, 0.1}, {0, 0, 0.25}), 2)},
-                          kG * Vec3(std::sin(a), 0, -std::cos(a)));
-    if (reverse) std::ranges::reverse(scene.bodies);
-    const Motion m = play(scene, T);
+    const Scene scene = inOrder(plankOnRollers(), reverse);
+    const Motion m = playGroups(scene, T);
     ASSERT_EQ(m.status, MotionStatus::complete) << m.message;
     ASSERT_EQ(m.events.size(), 1u);
     expectEntries(m.stateAt(bodyIndex(scene, "plank"), T).velocity, Vec3(1.06839907342405 * T, 0, 0), 1e-12, "plank");
@@ -174,13 +128,9 @@ TEST(Groups, APlankRollsOnRollers) {
 
 // Four thin boxes in a row: each that falls meets the next, and pushes it over while it slides down on it.
 TEST(Groups, DominoesFall) {
-  std::vector<Body> bodies = {fixedBody(makeBox("floor", {4, 4, 1}, {0, 0, -0.5}))};
-  for (int i = 0; i < 4; ++i) bodies.push_back(withMass(makeBox("d" + std::to_string(i), {0.01, 0.03, 0.05}, {0.03 * i, 0, 0.025}), 0.02));
-  bodies[1].angular_velocity = {0, 9, 0};
-  bodies[1].velocity = Vec3(0, 9, 0).cross(Vec3(-0.005, 0, 0.025));
-  Scene scene = makeScene(kDown, 0.2, 0.4, bodies);
+  const Scene scene = dominoRow(4);
   const double T = 0.3;
-  const Motion m = play(scene, T);
+  const Motion m = playGroups(scene, T);
   ASSERT_EQ(m.status, MotionStatus::complete) << m.message;
   for (int b = 1; b < 5; ++b) EXPECT_LT(m.stateAt(b, T).position.z(), 0.0245) << "d" << b - 1;
   const auto* geometry = dynamic_cast<const BodyGeometry*>(m.geometry.get());
@@ -202,12 +152,10 @@ TEST(Groups, DominoesFall) {
 }
 
 // What is not there yet says so.
-TEST(Groups, HaveNoDerivativesAndAreAsked) {
-  const Scene scene = sceneOf(0.25, {iceFloor(), withMass(makeBox("plank", {6, 1, 0.1}, {1, 0, 0.05}), 4),
-                                     withMass(makeBox("box", {0.2, 0.2, 0.2}, {0, 0, 0.2}, {2, 0, 0}), 1)});
-  const Motion m = play(scene, 0.5);
+TEST(Groups, HaveNoReplaysAndAreAsked) {
+  const Scene scene = boxOnPlank();
+  const Motion m = playGroups(scene, 0.5);
   ASSERT_EQ(m.status, MotionStatus::complete) << m.message;
-  EXPECT_THROW((void)gradientOf(m, 2, 0.4, 0), NotComputable);
   EXPECT_FALSE(hasSecondOrder(m));
   const MotionAlong along = simulateAlong(m, scene, m.geometry, 0.5);
   EXPECT_FALSE(along.complete);
