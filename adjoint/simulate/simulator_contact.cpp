@@ -38,7 +38,7 @@ std::optional<PredictedImpact> Simulator::besideConstrained(int a, int b, double
   const bool ground = isFixed(a) || isFixed(b);
   for (int body : {a, b})
     for (const Contact& c : contactStateOf(body).held) {
-      if (c.a == a && c.b == b) held.push_back(c.features);
+      if (c.a == a && c.b == b && std::ranges::find(held, c.features) == held.end()) held.push_back(c.features);  // both of a group have it
       if (ground) on_ground.push_back({c.a, c.b, c.features});
     }
   if (on_ground.size() > held.size())
