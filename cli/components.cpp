@@ -20,7 +20,7 @@ std::string carriedBy(const Motion& motion, const Event& event, int body) {
   const Arc& arc = motion.world_lines[static_cast<std::size_t>(body)].arcs[static_cast<std::size_t>(event.find(body)->next())];
   const adjoint_detail::RidePath* ride = arc.trajectory().ride();
   if (!ride) return {};
-  return ", on '" + motion.scene->bodies[static_cast<std::size_t>(ride->carrier().body)].name + "', which carries them";
+  return ", on " + namesOf(motion, ride->carrier()) + (ride->carrier().parts.size() > 1 ? ", which carry them" : ", which carries them");
 }
 
 std::string whyItRests(const Motion& motion, const Event& event, const std::vector<int>& bodies) {

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "adjoint/constrained/carrier.hpp"
 
+#include <algorithm>
+
 #include "adjoint/motion/guard.hpp"
+#include "adjoint/numeric/so3.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
 
-// Velocities of a belt at several contacts that differ by less than this share are one.
+// Velocities of carriers that differ by less than this share are one.
 constexpr double kSameVelocity = 1e-12;
-// A place that goes with a body but for this share does.
+// A place that goes with a body but for this share does; a spin of a surface about the normal but for it is.
 constexpr double kGoesAlong = 1e-12;
 
 const Body& bodyOf(const Motion& motion, int body) { return motion.scene->bodies[static_cast<std::size_t>(body)]; }
@@ -27,68 +30,105 @@ bool liesOnFaceOf(const Motion& motion, const Contact& c, int support, double ti
   return J.pose.block<3, 6>(1, own).isZero(0) && (across * J.pose.block<3, 3>(4, own) - across).norm() <= kGoesAlong;
 }
 
+// A body with the face that a contact is on.
+Carrier::Part partAt(const Motion& motion, const Contact& c, int body, double time) {
+  Carrier::Part part{body, supportOf(motion, body, time), {}, 0};
+  part.normal = part.support.pose.R.transpose() * (c.a == body ? Vec3(-c.at.normal) : c.at.normal);
+  part.height = part.normalInWorld().dot(c.at.point - part.origin());
+  return part;
+}
+
+// Whether its material goes uniformly, or turns about one axis.
+bool isUniform(const Carrier::Part& part, double time) {
+  const Support& s = part.support;
+  if (s.isGiven()) return false;
+  if (!s.has_belt) return true;
+  if (s.moves() && !s.at(time).w.isZero(0)) return false;
+  return part.normal.cross(s.surface_angular_velocity).norm() <= kGoesAlong * s.surface_angular_velocity.norm();
+}
+
 }  // namespace
 
+Vec3 Carrier::Part::surfaceVelocity() const {
+  if (!support.has_belt) return Vec3::Zero();
+  return alongFaceOf(normalInWorld(), Vec3(support.pose.R * support.surface_velocity));
+}
+
+Vec3 Carrier::Part::surfaceSpin() const {
+  if (!support.has_belt) return Vec3::Zero();
+  return normalInWorld() * normal.dot(support.surface_angular_velocity);
+}
+
 Carrier::Instant Carrier::at(double t) const {
+  const Part& part = parts.front();
   Instant now;
-  if (isBelt()) {
-    now.v = alongFaceOf(normal, Vec3(support.pose.R * support.surface_velocity));
-    now.x = (t - start) * now.v;
-    return now;
+  const double elapsed = t - start;
+  Vec3 velocity = Vec3::Zero();
+  if (part.support.moves()) {
+    const Kinematics k = part.support.arc->kinematicsAt(t);
+    now.x = k.x, now.moved = elapsed * k.v, now.v = velocity = k.v, now.w = k.w;
+    now.turned = k.R * part.support.pose.R.transpose();
   }
-  const Kinematics k = support.arc->kinematicsAt(t);
-  now.x = k.x, now.v = k.v, now.w = k.w;
-  now.turned = k.R * support.pose.R.transpose();
+  if (!part.support.has_belt) return now;
+  const Vec3 u = part.surfaceVelocity(), w = part.surfaceSpin();
+  now.w = w;
+  now.turned = w.isZero(0) ? Mat3(Mat3::Identity()) : expSO3(elapsed * w).toRotationMatrix();
+  now.moved = elapsed * (velocity + leftJacobian(Vec3(elapsed * w)) * u);
+  now.x = part.origin() + now.moved;
+  now.v = velocity + now.turned * u;
+  now.a = w.cross(Vec3(now.turned * u));
   return now;
 }
 
-Carrier::Derivative Carrier::tangent(const Motion& motion, const SceneTangent& dscene) const {
-  const BodyDerivative& d = dscene.bodies[static_cast<std::size_t>(body)];
-  Derivative out;
-  if (isBelt()) {  // its normal turns with the body
-    out.v = d.orientation.cross(at(start).v) + alongFaceOf(normal, Vec3(support.pose.R * d.surface_velocity));
-    return out;
-  }
-  const StateDerivative of = fromSceneStart(motion, body, support, start).tangent(d);
-  out.x = of.x, out.v = of.v, out.w = of.L;
-  return out;
+Carrier Carrier::from(const Motion& motion, double t) const {
+  Carrier same{t, parts};
+  for (Part& part : same.parts) part.support = supportOf(motion, part.body, t);
+  return same;
 }
 
-void Carrier::pullback(const Motion& motion, const Derivative& bar, SceneGradient& scene_bar) const {
-  BodyDerivative& d = scene_bar.bodies[static_cast<std::size_t>(body)];
-  if (isBelt()) {
-    d.orientation += at(start).v.cross(bar.v);
-    d.surface_velocity += support.pose.R.transpose() * alongFaceOf(normal, bar.v);
-    return;
-  }
-  StateDerivative of;
-  of.x = bar.x, of.v = bar.v, of.L = bar.w;
-  fromSceneStart(motion, body, support, start).pullback(of, d);
+bool Carrier::has(int body) const { return std::ranges::find(parts, body, &Part::body) != parts.end(); }
+
+bool Carrier::isBelt() const {
+  return std::ranges::any_of(parts, [](const Part& part) { return part.support.has_belt; });
+}
+
+std::string namesOf(const Motion& motion, const Carrier& carrier) {
+  std::string names;
+  for (const Carrier::Part& part : carrier.parts) names += (names.empty() ? "'" : " and '") + bodyOf(motion, part.body).name + "'";
+  return names;
 }
 
 Carried carriedBy(const Motion& motion, const std::vector<const Contact*>& outer, double time) {
   Carried carried;
   bool stands = false;
   for (const Contact* c : outer) {
-    const auto isMoved = [&](int body) { return !bodyOf(motion, body).immovable(); };
-    const int body = isMoved(c->a) ? c->b : c->a;
+    const int body = bodyOf(motion, c->a).immovable() ? c->a : c->b;
     if (!drivesContacts(motion, body)) {
       stands = true;
       continue;
     }
-    if (carried.by && carried.by->body != body) return {false, std::nullopt};
-    const Support support = carried.by ? carried.by->support : supportOf(motion, body, time);
-    const bool uniform = !support.isGiven() && !(support.moves() && support.has_belt) && support.surface_angular_velocity.isZero(0);
-    if (!uniform || (!support.moves() && !liesOnFaceOf(motion, *c, body, time))) return {false, std::nullopt};
-    const Carrier here{body, time, support, c->at.normal};
+    const Carrier here{time, {partAt(motion, *c, body, time)}};
+    const Carrier::Part& part = here.parts.front();
+    if (!isUniform(part, time)) return {false, std::nullopt, {}};
+    if (part.support.has_belt && !liesOnFaceOf(motion, *c, body, time)) {
+      carried.passing.push_back(c);
+      continue;
+    }
     if (!carried.by) {
       carried.by = here;
-    } else if (here.isBelt()) {
-      const Vec3 v = carried.by->at(time).v;
-      if (!((here.at(time).v - v).norm() <= kSameVelocity * v.norm())) return {false, std::nullopt};
+      continue;
     }
+    const bool known = carried.by->has(body);
+    if (known && !part.support.has_belt) continue;
+    const Carrier::Instant one = carried.by->at(time), other = here.at(time);
+    const double size = std::max(one.v.norm(), one.w.norm() * (c->at.point - one.x).norm());
+    const bool same = (one.w - other.w).norm() <= kSameVelocity * one.w.norm() && (known || one.w.isZero(0)) &&
+                      (one.velocityAt(c->at.point) - other.velocityAt(c->at.point)).norm() <= kSameVelocity * size;
+    if (!same) return {false, std::nullopt, {}};
+    if (!known) carried.by->parts.push_back(part);
   }
-  if (stands && carried.by) return {false, std::nullopt};
+  const bool moves = carried.by || !carried.passing.empty();
+  if (moves && (stands || !carried.by)) return {false, std::nullopt, {}};
   return carried;
 }
 

@@ -218,6 +218,19 @@ void doubtStart(Reliability& reliability, int body, const std::string& why) {
   if (reliability.beginning_message.empty()) reliability.beginning_message = why;
 }
 
+// What several bodies carry goes with them as long as they move alike.
+void doubtSeveral(Reliability& reliability, const Motion& motion, int body, const RidePath& ride) {
+  const std::vector<Body>& bodies = motion.scene->bodies;
+  for (const Carrier::Part& part : ride.carrier().parts) {
+    const std::string why = "'" + bodies[static_cast<std::size_t>(body)].name + "' rests on '" + bodies[static_cast<std::size_t>(part.body)].name +
+                            "' and on others that move alike: the derivative with respect to the velocity of one of them is not known there";
+    if (part.support.moves()) doubtStart(reliability, part.body, why);
+    if (!part.support.has_belt || std::find(reliability.surfaces.begin(), reliability.surfaces.end(), part.body) != reliability.surfaces.end()) continue;
+    reliability.surfaces.push_back(part.body);
+    if (reliability.surface_message.empty()) reliability.surface_message = why;
+  }
+}
+
 }  // namespace
 
 // On a kinematic body at rest paths are those on fixed ground: they have no derivative by its velocities.
@@ -244,7 +257,9 @@ void Reliability::passStill(const Motion& motion, int body, const Arc& arc) {
   } else if (arc.closedForm()) {
     stays(arc.closedForm()->face, true, true);
   } else if (const RidePath* ride = arc.trajectory().ride()) {
-    stays(ride->carrier().body, ride->carrier().isBelt(), !ride->carrier().isBelt());
+    const std::vector<Carrier::Part>& parts = ride->carrier().parts;
+    for (const Carrier::Part& part : parts) stays(part.body, !part.support.moves(), !part.support.has_belt);
+    if (parts.size() > 1) doubtSeveral(*this, motion, body, *ride);
   }
 }
 

@@ -26,7 +26,8 @@ struct BodyContactState {
 struct Ride {
   Carrier carrier;
   double until = 0;  // s
-  bool leaves = false;  // the end of a belt
+  std::optional<Contact> leaving;  // comes to the end of a belt then
+  int limit = -1;                  // of BodyGeometry::limits, that it comes to
 };
 
 /// Of a component at rest, what one of its bodies is held by, and with what state.

@@ -76,10 +76,10 @@ bool Simulator::follow() {
     }
     if (invalidatesReuse(next.a) || invalidatesReuse(next.b)) return false;
     if (next.isTransition() && arcOf(next.a).trajectory().ride()) {
-      if (endsRide(next.a)) return false;
-      continue;
-    }
-    if (next.isTransition()) {
+      const RideEnd ride = resolveRide(next.a);
+      if (ride == RideEnd::ends) return false;
+      if (ride == RideEnd::goes_on) continue;
+    } else if (next.isTransition()) {
       resolveTransition(next.a);
     } else {
       if (!isExplained(next)) return false;

@@ -196,7 +196,9 @@ class Simulator {
   void rest(std::size_t participant);
   void goOn(std::size_t participant, Arc arc, std::vector<Contact> held);
   std::optional<Ride> rideOf(const SupportedComponent& component, const std::vector<const Contact*>& on) const;
-  bool endsRide(int body);
+  enum class RideEnd { goes_on, otherwise, ends };
+  RideEnd resolveRide(int body);
+  void leaveCarrier(const Ride& ride, const std::vector<int>& part, const std::vector<Contact>& held);
   bool goTogether(int a, int b);
   std::optional<FreeAcceleration> componentAcceleration(int body) const;
   std::vector<std::pair<std::vector<int>, std::vector<Contact>>> placedParts(const std::vector<PlacedContact>& placed);

@@ -158,7 +158,7 @@ std::optional<RestingComponent> Simulator::restOf(const std::vector<int>& bodies
                                                              double no_slip, bool on_all) const {
   const SupportedComponent component = componentOf(bodies, closed);
   if (!standsStill(component, true, no_slip)) return std::nullopt;
-  const SupportedComponent::Rest rest = component.restOn(on_all ? pointersTo(closed) : component.pressed());
+  const SupportedComponent::Rest rest = component.restOn(on_all ? component.closed() : component.pressed());
   if (!rest.holds || !standsStill(component, rest.opposed, no_slip)) return std::nullopt;
   RestingComponent found{component.members(), {}, rest.opposed, std::nullopt};
   if (component.carried().by) {
@@ -213,9 +213,10 @@ void Simulator::chooseRest(const std::vector<int>& touching, const std::vector<C
     return;
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (rests[i]) {
+    const bool alone = parts[i].size() == 1;
+    if (rests[i] && !(alone && rests[i]->ride)) {
       holdAtRest(*rests[i]);
-    } else if (parts[i].size() == 1) {
+    } else if (alone) {  // also what is left alone on its carrier: it has a path of its own
       draft_.unheld.push_back(parts[i].front());
     } else {
       const std::vector<Contact> own = within(parts[i], closed);

@@ -57,14 +57,15 @@ struct NormalRows {
 }  // namespace
 
 SupportedComponent::SupportedComponent(const Motion& motion, std::vector<Member> members, std::vector<const Contact*> closed, double time)
-    : motion_(motion), time_(time), members_(std::move(members)), closed_(std::move(closed)), reach_(members_.size(), 0),
-      presses_(closed_.size(), 0) {
+    : motion_(motion), time_(time), members_(std::move(members)), closed_(std::move(closed)), reach_(members_.size(), 0) {
   std::vector<const Contact*> outer;
   std::ranges::copy_if(closed_, std::back_inserter(outer), [&](const Contact* c) { return memberOf(c->a) < 0 || memberOf(c->b) < 0; });
   carried_ = carriedBy(motion, outer, time);
   if (carried_.by) frame_ = carried_.by->at(time);
+  if (carried_.by) std::erase_if(closed_, [&](const Contact* c) { return std::ranges::find(carried_.passing, c) != carried_.passing.end(); });
   for (const Member& m : members_) free_.push_back(freeAcceleration((*motion.models)[asIndex(m.body)], m.state, motion.scene->gravity));
   pressed_ = free_;
+  presses_.assign(closed_.size(), 0);
   for (const Contact* c : closed_)
     for (const int body : {c->a, c->b})
       if (const int i = memberOf(body); i >= 0)

@@ -21,6 +21,8 @@ class SupportedComponent {
   SupportedComponent(const Motion& motion, std::vector<Member> members, std::vector<const Contact*> closed, double time);
 
   const std::vector<Member>& members() const { return members_; }
+  /// Without those with what passes below the bodies (Carried::passing).
+  const std::vector<const Contact*>& closed() const { return closed_; }
   /// Of the closed contacts, those that forces without friction have to keep closed, and those of the same faces.
   std::vector<const Contact*> pressed() const;
   /// Accelerations while such forces act, a member each.

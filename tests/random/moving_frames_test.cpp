@@ -22,7 +22,7 @@ namespace {
 using namespace test;
 
 constexpr double kFollowed = 0.8;  // s
-constexpr std::size_t kSteps = 300'000;
+constexpr std::size_t kStepLimit = 300'000;
 
 // A half-space cannot move: slabs in place of them.
 Scene withSlabs(Scene scene) {
@@ -49,7 +49,7 @@ Scene carriedBy(const Vec3& V, Scene scene) {
 Motion followed(const Scene& scene) {
   OdeContacts contacts(scene);
   SimulateOptions options;
-  options.step_limit = kSteps;
+  options.step_limit = kStepLimit;
   return simulate(scene, contacts, kFollowed, options);
 }
 
