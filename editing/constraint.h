@@ -40,15 +40,17 @@ class TargetNumber {
 /// When a constraint holds: at a time; just before the body's n-th impact (1 = first), counting only those with
 /// `with` if not empty; at some time in an interval, which the edit chooses; or when the body has come to rest.
 struct When {
-  double time = 0;   ///< s; start of an interval
+  Seconds time = 0;  ///< s; start of an interval
   int impact = 0;    ///< 0: not at an impact
   std::string with;  ///< body that it meets; empty: any
-  std::optional<std::pair<double, double>> span;  ///< s, first and last: at some time in between
+  std::optional<TimeSpan> span;  ///< s, first and last: at some time in between
   bool rest = false;  ///< when the body has come to rest for the remaining motion
 
   /// At a time, s.
   template <std::floating_point T>
   When(T t) : time(t) {}  // NOLINT: for nail("hat", 1.4)
+  /// At a time of a struct.
+  When(Seconds t) : time(t) {}  // NOLINT: likewise
   /// nail("hat", 2) does not compile: the second impact is nthImpact(2), a time is 2.0.
   template <class T>
     requires std::integral<T>
@@ -96,7 +98,7 @@ struct Target {
   std::vector<TargetNumber> max = {};  ///< upper bounds, SI
   std::string to = {};             ///< distance, closest_approach: name of the other body
   /// closest_approach: s, first and last; without it the whole motion.
-  std::optional<std::pair<double, double>> during = std::nullopt;
+  std::optional<TimeSpan> during = std::nullopt;
 };
 
 /// A region that the body stays out of, or within, during a time interval: at every moment, not only at samples.
@@ -113,7 +115,7 @@ struct Region {
   Vec3 position = Vec3::Zero();         ///< of the centre of the region, m, world
   Quat orientation = Quat::Identity();  ///< its axes to world, unit
   /// s, first and last; without it the whole motion.
-  std::optional<std::pair<double, double>> during = std::nullopt;
+  std::optional<TimeSpan> during = std::nullopt;
   /// m; of a ball its radius (default: the bounding radius of the body); of a shape its distance from the boundary of
   /// the region (default: 0).
   std::optional<double> margin = std::nullopt;
@@ -132,7 +134,7 @@ struct ImpactOf {
 struct Hit {
   std::string with;  ///< the other body, by name
   /// s, first and last time; without it at any time.
-  std::optional<std::pair<double, double>> during = std::nullopt;
+  std::optional<TimeSpan> during = std::nullopt;
   std::optional<ImpactOf> after = std::nullopt;   ///< only after this impact, which is required
   std::optional<ImpactOf> before = std::nullopt;  ///< only before this impact, if that happens
 };

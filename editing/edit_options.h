@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <stop_token>
 
+#include "adjoint/base/times.h"
+
 namespace carom {
 
 /// Whether an edit may change the impact sequence.
@@ -48,7 +50,7 @@ class EditAbandoned : public std::runtime_error {
 /// Options of an edit.
 struct EditOptions {
   int max_iterations = 10000;  ///< of all stages together; the last stage may exceed it by a few
-  double time_budget_seconds = std::numeric_limits<double>::infinity();  ///< s
+  Seconds time_budget_seconds = std::numeric_limits<double>::infinity();  ///< s
   double tolerance = 1e-9;  ///< of every row, dimensionless (docs/equations.md section 6)
   SequencePolicy sequence = SequencePolicy::smallest;                   ///< whether the impact sequence may change
   Effort effort = Effort::normal;                                   ///< work limit of the search

@@ -59,7 +59,7 @@ Nail& Nail::distance(const std::string& to, Wanted distance) {
   return set(std::move(target));
 }
 
-Nail& Nail::closestApproach(const std::string& to, Wanted distance, std::optional<std::pair<double, double>> during) {
+Nail& Nail::closestApproach(const std::string& to, Wanted distance, std::optional<TimeSpan> during) {
   Target target = targetOf("closest_approach", distance);
   target.to = to;
   target.during = during;

@@ -3,8 +3,8 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 
+#include "adjoint/base/times.h"
 #include "editing/constraint.h"
 #include "editing/wanted.h"
 
@@ -44,7 +44,7 @@ class Nail {
   /// m, the minimum distance of the two over an interval of its own (s, first and last; default: the whole motion),
   /// independent of the time of the nail.
   Nail& closestApproach(const std::string& to, Wanted distance,
-                        std::optional<std::pair<double, double>> during = std::nullopt);
+                        std::optional<TimeSpan> during = std::nullopt);
 
   /// Makes all targets relative to another body, in the axes of its shape (docs/scenes.md). "" resets it to the
   /// world.

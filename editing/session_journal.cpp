@@ -26,7 +26,7 @@ Constraint nailConstraint(const std::string& body, const When& at, const NailTar
     constraint.targets.push_back({"orientation", {q->w(), q->x(), q->y(), q->z()}});
   three("velocity", targets.velocity);
   three("angular_velocity", targets.angular_velocity);
-  if (targets.time) constraint.targets.push_back({"time", {*targets.time}});
+  if (targets.time) constraint.targets.push_back({"time", {double(*targets.time)}});
   return constraint;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "adjoint/base/times.h"
 #include "adjoint/scene/scene.h"
 #include "editing/constraint.h"
 #include "editing/control.h"
@@ -38,8 +39,8 @@ struct SessionOptions {
   int drag_simulations = 28;
   int dwell_simulations = 60;    ///< at most, for one call of EditSession::dwell, which has no time limit
   int release_iterations = 200;  ///< at most, per release
-  double drag_seconds = 0.25;    ///< time limit of one update
-  double release_seconds = 2;    ///< time limit of a release
+  Seconds drag_seconds = 0.25;    ///< time limit of one update
+  Seconds release_seconds = 2;    ///< time limit of a release
   /// Work limit of an update in simulation steps (SimulateOptions::step_limit): for slow motions it does fewer
   /// simulations, but at least three.
   double drag_steps = std::numeric_limits<double>::infinity();
@@ -67,7 +68,7 @@ struct NailTargets {
   std::optional<Quat> orientation = std::nullopt;       ///< shape to world
   std::optional<WantedVector> velocity = std::nullopt;          ///< m/s
   std::optional<WantedVector> angular_velocity = std::nullopt;  ///< rad/s, world axes
-  std::optional<double> time = std::nullopt;            ///< s, of an impact
+  std::optional<Seconds> time = std::nullopt;            ///< s, of an impact
 };
 /// The constraint of a nail of a session.
 Constraint nailConstraint(const std::string& body, const When& at, const NailTargets& targets);
@@ -75,7 +76,7 @@ Constraint nailConstraint(const std::string& body, const When& at, const NailTar
 /// The whole content of a session, see EditSession::setContent.
 struct SessionContent {
   Scene scene;                    ///< the new scene
-  double duration = 1;            ///< s
+  Seconds duration = 1;           ///< s
   std::vector<Control> controls;  ///< what may vary
   /// Existing nails keep their ids; NailId(): a new one.
   std::vector<std::pair<NailId, Constraint>> nails;

@@ -49,7 +49,7 @@ int main() {
   edit.nail("ball", between(0.6, 1.1)).position({0.52, 0, 0.13}).velocity(any, any, atMost(-0.5));
   // At the end it is in the cup, all of it.
   Region in_cup;
-  in_cup.shape = Box{{0.172, 0.172, 0.1}}, in_cup.position = {0.55, 0, 0.05}, in_cup.during = {{1.1, 1.15}};
+  in_cup.shape = Box{{0.172, 0.172, 0.1}}, in_cup.position = {0.55, 0, 0.05}, in_cup.during = TimeSpan(1.1, 1.15);
   edit.nail("ball", 0.0).inside(in_cup);
 
   const EditResult result = edit.solve();

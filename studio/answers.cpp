@@ -211,7 +211,7 @@ std::string stateOfMotion(const Document& document, const Motion& motion, const 
                  {"path", Json()},
                  {"name", document.name},
                  {"saved", true},
-                 {"duration", document.duration},
+                 {"duration", double(document.duration)},
                  {"controls", controlsOf(document.controls)},
                  {"numbers", numbersOf(*motion.scene, document.controls, before)},
                  {"nails", nails},

@@ -34,7 +34,7 @@ struct ArcSensitivity : RotationSensitivity {
 /// When a state is read: at a fixed time, or just before or after an event (then the time varies with the scene
 /// parameters). A body that takes no part in the event is read at the time of the event.
 struct Instant {
-  double time = 0;       ///< s, if there is no event
+  Seconds time = 0;      ///< s, if there is no event
   int event = -1;        ///< just before this one; -1: at a time
   bool follows = false;  ///< just after the event instead
 

@@ -47,7 +47,7 @@ struct SimulateOptions {
   /// and `least_duration` has passed, the motion ends as complete, with that time as its duration. Not called if
   /// events are not recorded.
   std::function<bool(const Motion&)> stop_when = {};
-  double least_duration = 0;  ///< s; only with `stop_when`
+  Seconds least_duration = 0;  ///< s; only with `stop_when`
   /// Baseline motion of a similar scene, over at least this duration and with the same `asked`. Unchanged bodies that
   /// are not affected by changed ones, directly or through impacts, are reused from it (Motion::taken_over of them);
   /// the others are simulated. The result equals the motion without a baseline up to rounding, because where an

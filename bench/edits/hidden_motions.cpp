@@ -199,7 +199,7 @@ std::optional<HiddenMotion> encounter(const Wanted& wanted, Dice& dice) {
   }
   hidden.duration = durationFor(hidden.constraints, wanted.goal == Goal::at_an_impact
                                                         ? motion.events[static_cast<std::size_t>(*met)].time
-                                                        : hidden.constraints[0].at.time);
+                                                        : double(hidden.constraints[0].at.time));
   return hidden;
 }
 

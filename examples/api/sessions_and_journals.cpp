@@ -21,7 +21,8 @@ int main() {
 
   SessionOptions options;
   options.measure_from = MeasureFrom::start;  // drags do not add up
-  options.drag_seconds = options.release_seconds = 60;  // so that no clock ends an update, however slow the machine
+  options.drag_seconds = options.release_seconds =
+      Seconds(60);  // so that no clock ends an update, however slow the machine
   EditSession session(scene, contacts, 1, options);
   session.vary(velocity("ball"), position("ball"));
   const NailId start = session.nail("ball", 0.0, {.position = Vec3(0, 0, 1)});

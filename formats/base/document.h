@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "adjoint/base/times.h"
 #include "adjoint/scene/scene.h"
 #include "editing/constraint.h"
 #include "editing/control.h"
@@ -19,7 +20,7 @@ struct FileRepair {
 /// A scene document: the scene, its duration, and an edit.
 struct Document {
   Scene scene;                           ///< as in the document
-  double duration = 1;  ///< s
+  Seconds duration = 1;                  ///< s
   std::vector<Control> controls;         ///< parameters that may change
   std::vector<Constraint> constraints;   ///< of the edit
   std::string folder;                 ///< to which file names in the scene are relative; empty: the current folder

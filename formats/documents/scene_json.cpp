@@ -41,7 +41,7 @@ Document formats_detail::readDocument(const Json& json, const std::string& folde
   document.scene = readScene(json, files);
   document.repairs = files.repairs();
   validate(document.scene);
-  document.duration = json.value("duration", document.duration);
+  document.duration = json.value<double>("duration", document.duration);
   document.controls = readControls(json, document.scene);
   document.constraints = readConstraints(json, document.scene, document.duration);
   return document;

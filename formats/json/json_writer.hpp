@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "adjoint/base/times.h"
 #include "adjoint/base/types.h"
 
 namespace carom::formats_detail {
@@ -45,7 +46,7 @@ class JsonWriter {
       return raw(value ? "true" : "false");
     else if constexpr (std::integral<T>)
       return raw(std::to_string(value));
-    else if constexpr (std::floating_point<T>)
+    else if constexpr (std::floating_point<T> || std::same_as<T, Seconds>)
       return raw(numberText(value));
     else if constexpr (std::convertible_to<const T&, std::string_view>)
       return raw(quotedText(value));

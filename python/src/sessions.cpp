@@ -132,15 +132,17 @@ void bindSessions(nb::module_& module) {
   session
       .def("__init__", &makeSession, nb::arg("scene"), nb::arg("duration") = nb::none(), nb::kw_only(),
            nb::arg("measure_from") = "grab", nb::arg("stay") = false, nb::arg("tolerance") = defaults.tolerance,
-           nb::arg("drag_simulations") = defaults.drag_simulations, nb::arg("drag_seconds") = defaults.drag_seconds,
-           nb::arg("release_seconds") = defaults.release_seconds)
+           nb::arg("drag_simulations") = defaults.drag_simulations,
+           nb::arg("drag_seconds") = double(defaults.drag_seconds),
+           nb::arg("release_seconds") = double(defaults.release_seconds))
       .def("vary", &varySession, nb::arg("controls"), nb::sig("def vary(self, *controls: Control) -> None"),
            "Adds controls. One undo step.")
-      .def("set_controls",
-           [](const PySession& self, const std::vector<Control>& controls) {
-             readFrom(self, [&](EditSession& of) { of.setControls(controls); });
-           },
-           nb::arg("controls"), "Replaces all controls. One undo step.")
+      .def(
+          "set_controls",
+          [](const PySession& self, const std::vector<Control>& controls) {
+            readFrom(self, [&](EditSession& of) { of.setControls(controls); });
+          },
+          nb::arg("controls"), "Replaces all controls. One undo step.")
       .def("write_journal", &writeJournalTo, nb::arg("path"),
            nb::sig("def write_journal(self, path: str | os.PathLike[str]) -> None"),
            "Writes all completed gestures; `carom replay` plays them again, to the same bits.")

@@ -94,6 +94,27 @@ TAKES_TIMES(handle().time(within(0, t)));
 TAKES_TIMES(std::declval<DisplayTrack::ArcKey&>().positionAt(t));
 TAKES_TIMES(std::declval<DisplayTrack::ArcKey&>().velocityAt(t));
 TAKES_TIMES(lastFrame(t, 24));
+// Members of structs, named and assigned.
+TAKES_TIMES(Region{.during = {{t, 2.0}}});
+TAKES_TIMES(Region{.during = {{0, t}}});
+TAKES_TIMES(Region{.during = std::pair{t, t}});
+TAKES_TIMES(std::declval<Region&>().during = {{t, 2.0}});
+TAKES_TIMES(Hit{.with = "red", .during = {{t, 2.0}}});
+TAKES_TIMES(Hit{.with = "red", .during = {{0.5, t}}});
+TAKES_TIMES(Target{.quantity = "closest_approach", .value = {any}, .during = {{t, 2.0}}});
+TAKES_TIMES(handle().closestApproach("floor", 1.0, {{t, 2.0}}));
+TAKES_TIMES(handle().closestApproach("floor", 1.0, {{0, t}}));
+TAKES_TIMES(std::declval<When&>().time = t);
+TAKES_TIMES(std::declval<When&>().span = {{0, t}});
+TAKES_TIMES(SimulateOptions{.least_duration = t});
+TAKES_TIMES(EditOptions{.time_budget_seconds = t});
+TAKES_TIMES(SessionOptions{.drag_seconds = t});
+TAKES_TIMES(SessionOptions{.release_seconds = t});
+TAKES_TIMES(NailTargets{.time = t});
+TAKES_TIMES(SessionContent{.scene = scene(), .duration = t});
+TAKES_TIMES(Document{.scene = scene(), .duration = t});
+TAKES_TIMES(GltfOptions{.ghosts = t});
+TAKES_TIMES(Instant{.time = t});
 #undef TAKES_TIMES
 
 // A tape keeps its motion, a tangent its tape, a nail its edit, by reference.
@@ -109,6 +130,10 @@ concept TakesControls = requires(Edited&& edit, Control control) { std::forward<
 static_assert(TakesNails<Edit&> && !TakesNails<Edit> && TakesControls<Edit&> && !TakesControls<Edit>);
 static_assert(std::is_constructible_v<Edit, const Scene&, OdeContacts&, double>);
 static_assert(!std::is_constructible_v<Edit, const Scene&, OdeContacts, double>);
+
+// A time of a struct is a number everywhere else.
+static_assert(std::is_convertible_v<Seconds, double> && std::is_convertible_v<TimeSpan, std::pair<double, double>>);
+static_assert(Nails<Seconds> && Between<Seconds, double>);
 
 // What is free has a type of its own.
 static_assert(std::is_constructible_v<Wanted, Free> && !std::is_convertible_v<Free, double>);

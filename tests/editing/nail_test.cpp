@@ -104,7 +104,7 @@ TEST_F(Nails, AreSeenFromOtherBodiesAndKeepToRegions) {
       .position({1, 0, 0})
       .avoid({.shape = Sphere{0.3}, .position = {1, 0, 0}})
       .inside({.shape = Box{{4, 4, 4}}, .during = {{0.1, 0.9}}, .margin = 0.2});
-  EXPECT_EQ(only().at.span, (std::pair<double, double>(0.2, 0.8)));
+  EXPECT_EQ(only().at.span, (TimeSpan(0.2, 0.8)));
   EXPECT_EQ(only().relative_to, "other");
   ASSERT_EQ(only().regions.size(), 2u);
   EXPECT_EQ(only().regions[0].side, Region::Side::avoid);

@@ -51,7 +51,7 @@ Document scaled(const Document& document, double s, double m) {
 Motion simulated(const Document& document) {
   OdeContacts contacts(document.scene);
   const bool large = document.scene.bodies.size() > 100;
-  return simulate(document.scene, contacts, large ? 0.1 : document.duration);
+  return simulate(document.scene, contacts, large ? 0.1 : double(document.duration));
 }
 
 /// The impacts come in the same order, and while few have come, at the same times: later ones amplify rounding.

@@ -123,15 +123,15 @@ TEST(SceneRoundTrip, spansRangesAndRegionsAreRead) {
   EXPECT_EQ(distance.max, Numbers{8.5});
   EXPECT_EQ(closest.quantity + " " + closest.to, "closest_approach can");
   EXPECT_EQ(closest.value, Numbers{0.065});
-  EXPECT_EQ(closest.during, (std::pair<double, double>(0.45, 1.95)));
+  EXPECT_EQ(closest.during, (TimeSpan(0.45, 1.95)));
   ASSERT_TRUE(d.constraints[10].hits);
   EXPECT_EQ(d.constraints[10].hits->with, "pill");
-  EXPECT_EQ(d.constraints[10].hits->during, (std::pair<double, double>(0.55, 1.85)));
+  EXPECT_EQ(d.constraints[10].hits->during, (TimeSpan(0.55, 1.85)));
   EXPECT_EQ(d.constraints[10].hits->after->with, "crate");
   EXPECT_EQ(d.constraints[10].hits->before->n, 7);
   EXPECT_EQ(d.constraints[11].sequence, (std::vector<std::string>{"can pill", "...", "d?e pil*"}));
   const Constraint& hat = d.constraints[4];
-  EXPECT_EQ(hat.at.span, (std::pair<double, double>(0.31, 1.9)));
+  EXPECT_EQ(hat.at.span, (TimeSpan(0.31, 1.9)));
   EXPECT_EQ(hat.at.impact, 0);
   EXPECT_EQ(hat.relative_to, "crate");
   ASSERT_EQ(hat.targets.size(), 2u);
@@ -170,7 +170,7 @@ TEST(SceneRoundTrip, spansRangesAndRegionsAreRead) {
   EXPECT_EQ(can.regions[1].margin, 0);
   EXPECT_EQ(can.regions[1].keep, Region::Keep::shape);
   EXPECT_EQ(can.regions[2].side, Region::Side::avoid);
-  EXPECT_EQ(can.regions[2].during, (std::pair<double, double>(0.2, 1.7)));
+  EXPECT_EQ(can.regions[2].during, (TimeSpan(0.2, 1.7)));
   EXPECT_EQ(can.regions[2].margin, 0.05);
   EXPECT_EQ(can.regions[2].keep, Region::Keep::ball);
   EXPECT_EQ(can.regions[2].position, Vec3(-9, 3, -0.1));

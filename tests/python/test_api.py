@@ -108,6 +108,7 @@ LEFT_OUT = {
     "RatesWanted": "an option of speed: Python gives all rates",
     "EditAbandoned": "Ctrl-C, and what a callback raises, abandon an edit: that comes out of Edit.solve",
     "any": "None",
+    **dict.fromkeys(["Seconds", "TimeSpan"], "a float, and two of them"),
     "setSolverLibrary": "the package names its own",
 }
 

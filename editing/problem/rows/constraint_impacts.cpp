@@ -127,7 +127,7 @@ double ConstraintSet::leastDuration() const {
     const When& at = constraints_[i].at;
     const Bound& bound = bound_[i];
     if (bound.at_instant && at.impact == 0 && !at.rest)
-      last = std::max(last, at.span ? at.span->second : at.time);
+      last = std::max<double>(last, at.span ? at.span->second : at.time);
     for (std::size_t t = 0; t < bound.kinds.size(); ++t)
       if (bound.kinds[t]->over_span) last = std::max(last, bound.during[t].second);
     for (const BoundRegion& region : bound.regions) last = std::max(last, region.to);
@@ -160,9 +160,9 @@ ConstraintSet::Extent ConstraintSet::extentIn(const Motion& motion, const Eigen:
     if (!bound_[i].at_instant) continue;
     const int free = bound_[i].free_time;
     if (at.span) {
-      extent.time = std::max(extent.time, free < times.size() ? times[free] : at.span->second);
+      extent.time = std::max(extent.time, free < times.size() ? times[free] : double(at.span->second));
     } else {
-      extent.time = std::max(extent.time, at.time);
+      extent.time = std::max<double>(extent.time, at.time);
     }
   }
   for (const BoundFunction& own : own_) extent.time = std::max(extent.time, own.extentIn(motion));

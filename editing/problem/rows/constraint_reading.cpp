@@ -31,7 +31,7 @@ ConstraintSet::Reading ConstraintSet::read(const Motion& motion, int index, doub
     const std::optional<Instant> instant = awaited(motion, index);
     return instant ? readAt(motion, index, *instant) : Reading();
   }
-  const double t = bound.free_time >= 0 ? free_time : constraint.at.time;
+  const double t = bound.free_time >= 0 ? free_time : double(constraint.at.time);
   if (t <= motion.end) return readAt(motion, index, Instant::at(t));
   Reading reading;
   reading.message = "The constraint on " + describeConstraint(index) + " lies after the end of the motion at " +

@@ -39,7 +39,7 @@ std::optional<Instant> findInstant(const Motion& motion, int body, const When& a
 }
 
 double timeOf(const Motion& motion, const Instant& instant) {
-  return instant.event >= 0 ? motion.events[index(instant.event)].time : instant.time;
+  return instant.event >= 0 ? motion.events[index(instant.event)].time : double(instant.time);
 }
 
 BodyState stateAt(const Motion& motion, int body, const Instant& instant) {

@@ -232,7 +232,7 @@ void LeftDocument::addEdit(Document& document) {
   if (!edit_.is_object()) return;
   document.name = textOr(edit_, "name");
   document.notes = textOr(edit_, "notes");
-  document.duration = edit_.value("duration", document.duration);
+  document.duration = edit_.value<double>("duration", document.duration);
   const auto each = [&](const char* list, const std::string& what, auto&& read) {
     const auto items = edit_.find(list);
     for (std::size_t i = 0; items != edit_.end() && i < items->size(); ++i) try {

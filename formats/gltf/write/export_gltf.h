@@ -28,7 +28,7 @@ struct GltfOptions {
   double tolerance = 1e-4;
   bool camera = false;                   ///< add a camera that frames the whole motion, from the side and slightly above
   std::optional<double> light = {};      ///< lux: add a directional light (KHR_lights_punctual)
-  std::optional<double> ghosts = {};     ///< s: interval of translucent copies of moving bodies
+  std::optional<Seconds> ghosts = {};    ///< s: interval of translucent copies of moving bodies
   bool nails = false;                    ///< marks of the constraints: nailed positions and poses, regions
 };
 
