@@ -176,6 +176,19 @@ std::string tooFar(const Body& body, double speed, double way, double asked, con
 
 }  // namespace
 
+std::optional<CenterLimits> centerLimits(const EditProblem& problem, int body) {
+  const Scene& scene = problem.controls.startScene();
+  const Body& of = scene.bodies[static_cast<std::size_t>(body)];
+  if (!energyOnlyFalls(problem) || of.immovable()) return std::nullopt;
+  const BodyModel model = modelOf(of);
+  const double weight = weightOf(scene, of, model), height = heightOfCenter(of, model),
+               beside = energyBeside(problem, body);
+  const double kinetic = beside + potentialOf(scene, of, model);
+  if (!(weight > 0) || !std::isfinite(kinetic)) return std::nullopt;
+  return CenterLimits{of.position + of.orientation * model.center, std::sqrt(2 * kinetic / model.mass),
+                      lowestHeight(scene, of, model, height), height + beside / weight, model.center.norm()};
+}
+
 std::string whyItIsTooHigh(const EditProblem& problem, double tolerance) {
   const ConstraintSet& set = problem.constraints;
   if (!energyOnlyFalls(problem)) return "";

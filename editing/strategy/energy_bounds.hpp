@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "adjoint/base/types.h"
 #include "editing/problem/edit_problem.hpp"
 
 /// Proofs by energy that no motion meets a constraint; a sentence, or empty where nothing is proven. Internal to editing/.
@@ -14,6 +16,17 @@
 /// is tilted, and below each moving body, but for the one whose height is asked for, there is a fixed horizontal plane that it
 /// collides with.
 namespace carom::editing_detail {
+
+/// What energy allows the centre of mass of a body that moves.
+struct CenterLimits {
+  Vec3 start = Vec3::Zero();  ///< where it is, m
+  double speed = 0;           ///< at most, m/s
+  double lowest = 0;          ///< h_min, m
+  double highest = 0;         ///< m
+  double offset = 0;          ///< of the origin of the shape from it, m
+};
+/// Nothing where the bound is none.
+std::optional<CenterLimits> centerLimits(const EditProblem& problem, int body);
 
 /// A height above h_min,i + E / (m_i g f_i).
 std::string whyItIsTooHigh(const EditProblem& problem, double tolerance);

@@ -9,7 +9,9 @@
 #include "editing/strategy/energy_bounds.hpp"
 #include "editing/strategy/kept_coordinates.hpp"
 #include "editing/strategy/nail_in_solid.hpp"
+#include "editing/strategy/past_walls.hpp"
 #include "editing/strategy/proven_bounds.hpp"
+#include "editing/strategy/rest_balance.hpp"
 
 namespace carom::editing_detail {
 namespace {
@@ -103,7 +105,8 @@ Impossible whyImpossible(const EditEvaluator& evaluator, const EditPoint& start)
     if (!why.empty()) return {why, true};
   if (start.motion.overlaps.empty())  // bodies that overlap at the start may fall through what would hold them
     for (const std::string& why :
-         {whyItIsTooHigh(problem, tolerance), whyItIsTooFast(problem, tolerance), whyItIsTooFar(problem, tolerance)})
+         {whyItIsTooHigh(problem, tolerance), whyItIsTooFast(problem, tolerance), whyItIsTooFar(problem, tolerance),
+          whyItStaysBefore(problem, tolerance), whyItCannotBalance(problem, tolerance)})
       if (!why.empty()) return {why, true};
   if (start.motion.overlaps.empty()) {
     const std::vector<WhyNot::Inside> inside = nailsInSolids(problem, problem.controls.startScene());

@@ -265,7 +265,9 @@ TEST(MassProperties, InnerRadius) {
   EXPECT_EQ(radius(Capsule{0.5, 3}), 0.5);
   EXPECT_EQ(radius(Cylinder{3, 4}), 2);
   EXPECT_EQ(radius(Cone{3, 4}), 2 * 0.6);  // the distance of the middle from the side
+  EXPECT_NEAR(radius(hullOf(boxTriangles({2, 4, 3}), 2)), 2, 1e-8);
   EXPECT_EQ(radius(Plane{}), 0);
+  EXPECT_EQ(radius(Hull{}), 0);
   EXPECT_EQ(radius(Compound{{part(Sphere{1})}}), 0);
 }
 

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <limits>
+
 #include "adjoint/scene/shape_kinds/scaled_surface.hpp"
 
 namespace carom::shapes {
@@ -17,6 +20,15 @@ void checkHull(const Shape& shape, const validation::ShapeCheck& at) {
 
 struct HullRow : ScaledRow<Hull> {
   static constexpr const char* name = "hull";
+
+  // The distance of the nearest face; a share less, since faces are flat up to rounding.
+  static double inner(const Hull& s) {
+    if (!hasVolume(s)) return 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Surface::Face& face : s.surface->faces)
+      for (int i = 0; i < face.count; ++i) least = std::min(least, face.normal.dot(s.surface->corner(face, i)));
+    return least > 0 ? least * s.scale * (1 - 1e-9) : 0;
+  }
 };
 
 }  // namespace
