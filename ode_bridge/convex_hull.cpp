@@ -27,7 +27,8 @@ constexpr std::size_t kAllPairs = 100'000'000;  // points times faces up to whic
 const Vec3& at(const std::vector<Vec3>& points, int i) { return points[static_cast<std::size_t>(i)]; }
 
 void checkNumbers(const std::vector<Vec3>& points) {
-  if (points.size() < 4) refuse("", "found a hull of ", points.size(), " points, expected four or more");
+  if (points.size() < 4)
+    refuse("", "found a hull of ", points.size(), " points, expected four or more that span a volume");
   if (points.size() > std::size_t{100'000'000})
     refuse("", "found a hull of ", points.size(), " points, expected at most 100000000");
   checkCoordinates(points, "point");
@@ -42,7 +43,9 @@ Eigen::AlignedBox3d boxAround(const std::vector<Vec3>& points) {
 /// Size of the points; throws when they do not span a volume.
 double checkSpread(const std::vector<Vec3>& points) {
   const double size = boxAround(points).sizes().stableNorm();
-  const auto expected = ", expected points that span a volume";
+  const auto expected =
+      ", expected points that span a volume; for something flat a \"box\" as thick as it is, or a \"mesh\" of a fixed "
+      "body";
   if (!(size > 0)) refuse("", "found all ", points.size(), " points of a hull at one place", expected);
   if (!(size >= kLeastLength))
     refuse("", "found points of a hull within ", about(size, 3), " m of each other, expected an extent of at least ",

@@ -111,6 +111,14 @@ TEST_F(ShapeFiles, anOpenMeshNeedsMassAndInertia) {
   formats_test::expectRoundTrip(d, "open");
 }
 
+TEST_F(ShapeFiles, aFlatSheetIsToldWhatStandsForIt) {
+  write("meshes/sheet.obj", "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nf 1 2 3 4\n");
+  expectRefused(R"("mesh": { "file": "meshes/sheet.obj" })", "/mesh",
+                {"a flat sheet on a moving body", "a \"box\" as thick as the sheet"});
+  expectRefused(R"("hull": { "file": "meshes/sheet.obj" })", "/hull/file",
+                {"in one plane", "a \"box\" as thick as it is"});
+}
+
 TEST_F(ShapeFiles, badFilesAreNamedWithTheirPlace) {
   write("meshes/letters.obj", "v 0 0 0\nv 1 0 zero\n");
   write("meshes/flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");

@@ -277,6 +277,9 @@ TEST(OmiPhysics, CollidersThatAreWrongOrOfTheFirstDraftAreNamed) {
   file = fromOldGodot();
   file["extensions"]["OMI_collider"]["colliders"][0].erase("type");
   EXPECT_NE(refusal(file).find("/extensions/OMI_collider/colliders/0"), std::string::npos) << refusal(file);
+  file = fromOldGodot();
+  file["extensions"]["OMI_collider"]["colliders"][1] = {{"type", "box"}, {"extents", {10, 1, 10}}};
+  EXPECT_NE(refusal(file).find("/extensions/OMI_collider/colliders/1/extents"), std::string::npos) << refusal(file);
   file = fromGodot();
   file["nodes"].push_back({{"name", "Draft"}, {"extensions", {{"OMI_collider", {{"type", "sphere"}, {"radius", 0.5}}}}}});
   file["scenes"][0]["nodes"].push_back(5);

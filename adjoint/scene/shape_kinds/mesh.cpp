@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "adjoint/base/refuse.hpp"
@@ -12,6 +13,8 @@ namespace carom::shapes {
 using namespace adjoint_detail;
 
 namespace {
+
+constexpr double kFlattest = 1e-9;  // thickness of a sheet at most, of its size
 
 /// Boundary edges that hang together bound a hole.
 std::string holesOf(const Surface& s) {
@@ -33,6 +36,17 @@ std::string holesOf(const Surface& s) {
   return many + about(widest->second.sizes().norm(), 3) + " m across, around " + aboutPlace(widest->second.center()) + " m";
 }
 
+/// All of it in one plane.
+bool isFlat(const Surface& s) {
+  double size = 0, thickness = 0;
+  const Vec3 &normal = s.faces.front().normal, &corner = s.corner(s.faces.front(), 0);
+  for (const Vec3& v : s.vertices) {
+    size = std::max(size, (v - corner).norm());
+    thickness = std::max(thickness, std::abs(normal.dot(v - corner)));
+  }
+  return thickness <= kFlattest * size;
+}
+
 void checkMesh(const Shape& shape, const validation::ShapeCheck& at) {
   const Mesh& s = as<Mesh>(shape);
   if (!s.surface) validation::fail(at.where, "no surface", "one made by meshSurface");
@@ -41,6 +55,10 @@ void checkMesh(const Shape& shape, const validation::ShapeCheck& at) {
     if (face.count != 3)
       validation::fail(at.where, "a face with " + std::to_string(face.count) + " corners", "triangles alone, as meshSurface makes them");
   requireScale(at, s.scale, *s.surface);
+  if (at.derived && isFlat(*s.surface))
+    validation::fail(
+        at.where, std::string("a flat sheet on a moving body, whose ") + at.derived,
+        "a \"box\" as thick as the sheet is, or \"mass\" and \"inertia\" both written, or \"fixed\": true");
   if (at.derived && !s.surface->closed)
     validation::fail(at.where, "an open mesh (" + holesOf(*s.surface) + ") on a moving body, whose " + at.derived,
                      "a closed mesh, or a \"hull\" of it, or \"mass\" and \"inertia\" both written, or \"fixed\": true");

@@ -41,6 +41,10 @@ Json shapeOf(const JsonPlace& shape, bool flat = false) {
     return {{"type", type}, {type, {{"height", content.numberOr("height", 2)}, {"radiusBottom", radius}, {"radiusTop", radius}}}};
   }
   if (type == "hull") type = "convex";  // its name before
+  if (flat && type == "box" && content.find("extents"))
+    fail(content.pointer + "/extents",
+         "a box of an early draft, in which \"extents\" are whole lengths here and half lengths there",
+         "\"size\", the whole lengths");
   return {{"type", type}, {type, content.value}};
 }
 
