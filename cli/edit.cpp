@@ -112,9 +112,12 @@ void printResult(Output& out, const EditResult& result, bool all_impacts) {
     printSequences(out, result.sequence_before, result.sequence_after, all_impacts);
     printCertificate(out, result.certificate);
   }
-  if (!result.why_not.sentences.empty()) out.text() << "  reasons:\n";
-  for (const std::string& sentence : result.why_not.sentences)
-    if (result.message.find(sentence) == std::string::npos) out.text() << "    " << sentence << '\n';
+  const char* heading = "  reasons:\n";
+  for (const std::string& sentence : result.why_not.sentences) {
+    if (result.message.find(sentence) != std::string::npos) continue;
+    out.text() << heading << "    " << sentence << '\n';
+    heading = "";
+  }
   if (result.solved()) out.text() << out.styled(Look::good, nameOf(result.status)) << ": " << result.message << '\n';
 }
 

@@ -12,6 +12,7 @@
 #include "editing/strategy/approach.hpp"
 #include "editing/strategy/impossible.hpp"
 #include "editing/strategy/inside_margin.hpp"
+#include "editing/strategy/last_digits.hpp"
 #include "editing/strategy/local_solve.hpp"
 #include "editing/strategy/row_choice.hpp"
 #include "editing/strategy/samples.hpp"
@@ -102,7 +103,8 @@ std::string unmetRows(const EditEvaluator& evaluator, const EditPoint& point) {
 
 EditSolution unsolved(EditEvaluator& evaluator, EditSolution solution) {
   const std::string nearest = solution.point->rows.available
-                                  ? "The nearest point found misses " + unmetRows(evaluator, *solution.point) + "."
+                                  ? "The nearest point found misses " + unmetRows(evaluator, *solution.point) + "." +
+                                        lastDigits(evaluator, *solution.point)
                                   : solution.point->rows.message;
   const bool stays = evaluator.options().sequence == SequencePolicy::stay;
   const std::string where = stays ? " within the initial impact sequence" : "";
