@@ -44,9 +44,10 @@ def off(value, wanted):
 def errors(carom, scene, constraint):
     """By how much the motion of the scene misses a constraint; infinity if an impact or a rest is missing."""
     if "sequence" in constraint:
-        first = constraint["sequence"][0].split()[0]
-        met = [set(e["bodies"]) for e in impacts(simulate(carom, scene), first)]
         wanted = [set(pair.split()) for pair in constraint["sequence"]]
+        counts = set.union(*wanted) | {b["name"] for b in scene["bodies"] if not b.get("fixed")}  # as docs/scenes.md says
+        first = constraint["sequence"][0].split()[0]
+        met = [set(e["bodies"]) for e in impacts(simulate(carom, scene), first) if set(e["bodies"]) <= counts]
         return 0.0 if met[:len(wanted)] == wanted else math.inf
     if "hits" in constraint:
         return 0.0 if impacts(simulate(carom, scene), constraint["body"], constraint["hits"]) else math.inf
