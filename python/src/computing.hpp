@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+#include <utility>
+
 #if defined(__SSE2__) && defined(__x86_64__)
 #include <xmmintrin.h>
 #else
@@ -38,11 +41,35 @@ class PlainArithmetic {
 #endif
 };
 
+/// Gives the GIL away while it lives. Before it sleeps until it is free, it looks for some microseconds whether another such
+/// thread gives it away: calls have the GIL for a microsecond or two, but to be put to sleep and woken takes tens of them, and
+/// two threads of short calls were slower than one.
+class GilFree {
+ public:
+  GilFree();
+  ~GilFree();
+  GilFree(const GilFree&) = delete;
+  GilFree& operator=(const GilFree&) = delete;
+
+ private:
+  PyThreadState* thread_;
+};
+
 /// What every call that computes does first: it gives the GIL away, and computes plainly.
 class Computing {
  private:
-  nb::gil_scoped_release free_;
+  GilFree free_;
   PlainArithmetic plain_;
 };
+
+/// Shared, and deleted without the GIL where that takes long.
+template <class Made>
+std::shared_ptr<Made> sharedFreely(std::unique_ptr<Made> made, bool takes_long) {
+  return {made.release(), [takes_long](Made* last) {
+            if (!takes_long || PyGILState_Check() == 0) return delete last;
+            const GilFree free;
+            delete last;
+          }};
+}
 
 }  // namespace carom::python

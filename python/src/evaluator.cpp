@@ -21,7 +21,7 @@ struct PyEvaluator {
 struct PyPoint {
   nb::object evaluator;
   PyScene scene;
-  NlpPoint point;
+  std::shared_ptr<const NlpPoint> point;
 };
 
 /// carom.NlpJacobian and carom.NlpGradient.
@@ -53,7 +53,8 @@ PyPoint pointAt(const nb::object& self, const ArrayLike& x) {
     return of.evaluator.at(values, watch.stop(), watch.progress());
   }();
   watch.finish();
-  return {self, of.scene, std::move(point)};
+  const bool takes_long = point.available() && takesLong(point.motion());
+  return {self, of.scene, sharedFreely(std::make_unique<const NlpPoint>(std::move(point)), takes_long)};
 }
 
 PyScene sceneAt(const PyEvaluator& self, const ArrayLike& x) {
@@ -65,7 +66,7 @@ PyScene sceneAt(const PyEvaluator& self, const ArrayLike& x) {
 /// A copy, without what the evaluator keeps.
 PyMotion motionOfPoint(const PyPoint& self) {
   const Computing free;
-  const Motion& motion = self.point.motion();
+  const Motion& motion = self.point->motion();
   return motionOf(sceneWith(self.scene, *motion.scene), Motion(motion));
 }
 
@@ -73,7 +74,7 @@ Array<-1, -1> hessianOf(const PyPoint& self, double objective_weight, const Arra
   const Eigen::VectorXd weights = columnOf(row_weights, "row_weights");
   const Eigen::MatrixXd hessian = [&] {
     const Computing free;
-    return self.point.hessian(objective_weight, weights);
+    return self.point->hessian(objective_weight, weights);
   }();
   return copied<Array<-1, -1>>(hessian);
 }
@@ -83,7 +84,7 @@ Array<-1> hessianTimes(const PyPoint& self, double objective_weight, const Array
   const Eigen::VectorXd weights = columnOf(row_weights, "row_weights"), along = columnOf(direction, "direction");
   const Eigen::VectorXd product = [&] {
     const Computing free;
-    return self.point.hessianTimes(objective_weight, weights, along);
+    return self.point->hessianTimes(objective_weight, weights, along);
   }();
   return copied<Array<-1>>(product);
 }
@@ -163,39 +164,39 @@ constexpr const char* kPointText =
 
 void bindPoint(nb::module_& module) {
   nb::class_<PyPoint> point(module, "NlpPoint", nb::type_slots(kCollected<PyPoint, &PyPoint::evaluator>), kPointText);
-  point.def_prop_ro("x", [](const PyPoint& self) { return copied<ReadOnly<-1>>(self.point.x()); }, kOwnArray,
+  point.def_prop_ro("x", [](const PyPoint& self) { return copied<ReadOnly<-1>>(self.point->x()); }, kOwnArray,
                     "(variables,), SI.")
-      .def_prop_ro("available", [](const PyPoint& self) { return self.point.available(); },
+      .def_prop_ro("available", [](const PyPoint& self) { return self.point->available(); },
                    "All rows and the objective exist: the scene is valid and the motion has all that they read.")
-      .def_prop_ro("message", [](const PyPoint& self) { return self.point.message(); },
+      .def_prop_ro("message", [](const PyPoint& self) { return self.point->message(); },
                    "Why not, in a sentence; empty if available.")
       .def_prop_ro("motion", &motionOfPoint, nb::rv_policy::move, "Simulated as far as something counts.")
-      .def_prop_ro("values", [](const PyPoint& self) { return copied<ReadOnly<-1>>(self.point.values()); }, kOwnArray,
+      .def_prop_ro("values", [](const PyPoint& self) { return copied<ReadOnly<-1>>(self.point->values()); }, kOwnArray,
                    "(rows,), of all rows, SI.")
-      .def_prop_ro("objective", [](const PyPoint& self) { return self.point.objective(); },
+      .def_prop_ro("objective", [](const PyPoint& self) { return self.point->objective(); },
                    "What the edit minimises: 1/2 sum (w z)^2, or that of Edit.minimise.")
       .def_prop_ro("signature",
                    [](const PyPoint& self) {
                      const Computing free;
-                     return self.point.signature();
+                     return self.point->signature();
                    },
                    "The impact sequence as far as it counts: derivatives relate points with equal signatures.")
       .def_prop_ro("has_hessian",
                    [](const PyPoint& self) {
                      const Computing free;
-                     return self.point.hasHessian();
+                     return self.point->hasHessian();
                    },
                    "Second derivatives are implemented for this motion and all rows.")
       .def("gradient",
            [](const PyPoint& self) {
              const Computing free;
-             return PyNlpGradient{self.scene, self.point.gradient()};
+             return PyNlpGradient{self.scene, self.point->gradient()};
            },
            "Of the objective, by one reverse pass.")
       .def("jacobian",
            [](const PyPoint& self) {
              const Computing free;
-             return PyJacobian{self.scene, self.point.jacobian()};
+             return PyJacobian{self.scene, self.point->jacobian()};
            },
            "Of all rows, by one reverse pass each.")
       .def("hessian", &hessianOf, nb::arg("objective_weight"), nb::arg("row_weights"),
@@ -204,9 +205,9 @@ void bindPoint(nb::module_& module) {
       .def("hessian_times", &hessianTimes, nb::arg("objective_weight"), nb::arg("row_weights"), nb::arg("direction"),
            "The product of that matrix with a direction, for the cost of some reverse passes.")
       .def("__repr__", [](const PyPoint& self) {
-        return self.point.available() ? "<NlpPoint of " + std::to_string(self.point.x().size()) + " variables and " +
-                                            std::to_string(self.point.values().size()) + " rows>"
-                                      : "<NlpPoint, not available: " + self.point.message() + ">";
+        return self.point->available() ? "<NlpPoint of " + std::to_string(self.point->x().size()) + " variables and " +
+                                            std::to_string(self.point->values().size()) + " rows>"
+                                      : "<NlpPoint, not available: " + self.point->message() + ">";
       });
 }
 

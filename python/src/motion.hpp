@@ -73,6 +73,9 @@ using EventName = std::variant<PyEvent, int>;
 /// Its index. Throws InputError for one of another motion; an index is checked where it is used.
 int eventOf(const MotionContent& motion, const EventName& event);
 
+/// Whether to delete it takes so long that others get the GIL meanwhile: with 4000 events it takes half a millisecond.
+inline bool takesLong(const Motion& motion) { return motion.events.size() + motion.world_lines.size() > 300; }
+
 /// The name of a body.
 inline const std::string& nameIn(const Motion& motion, int body) {
   return motion.scene->bodies[static_cast<std::size_t>(body)].name;

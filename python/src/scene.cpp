@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "python/src/scene.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,9 +16,12 @@ namespace carom::python {
 SceneContent::Contacts::Contacts(const SceneContent& scene) : scene_(scene) {
   {
     const std::lock_guard lock(scene.guard_);
-    if (!scene.idle_.empty()) {
-      source_ = std::move(scene.idle_.back());
-      scene.idle_.pop_back();
+    auto& idle = scene.idle_;
+    auto found = std::ranges::find(idle, std::this_thread::get_id(), &Idle::last_used_by);
+    if (found == idle.end() && !idle.empty()) found = idle.end() - 1;
+    if (found != idle.end()) {
+      source_ = std::move(found->source);
+      idle.erase(found);
     }
   }
   if (!source_) source_ = std::make_unique<OdeContacts>(scene.document.scene);
@@ -25,7 +29,7 @@ SceneContent::Contacts::Contacts(const SceneContent& scene) : scene_(scene) {
 
 SceneContent::Contacts::~Contacts() {
   const std::lock_guard lock(scene_.guard_);
-  scene_.idle_.push_back(std::move(source_));
+  scene_.idle_.push_back({std::move(source_), std::this_thread::get_id()});
 }
 
 PyScene sceneWith(const PyScene& original, const Scene& values) {

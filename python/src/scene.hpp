@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <variant>
 #include <vector>
 
@@ -41,8 +42,14 @@ class SceneContent {
   };
 
  private:
+  /// It goes to the thread that used it last, if that comes back: its memory is in the cache of that processor.
+  struct Idle {
+    std::unique_ptr<OdeContacts> source;
+    std::thread::id last_used_by;
+  };
+
   mutable std::mutex guard_;
-  mutable std::vector<std::unique_ptr<OdeContacts>> idle_;
+  mutable std::vector<Idle> idle_;
 };
 
 /// carom.Scene.

@@ -47,7 +47,8 @@ PyMotion motionOf(const PyScene& scene, Motion motion) {
 }
 
 PyMotion motionOf(const PyScene& scene, std::shared_ptr<const Motion> motion) {
-  return {scene, std::make_shared<MotionContent>(std::move(motion))};
+  const bool takes_long = takesLong(*motion);
+  return {scene, sharedFreely(std::make_unique<const MotionContent>(std::move(motion)), takes_long)};
 }
 
 void bindSimulate(nb::module_& module) {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "python/src/computing.hpp"
+
+#include <atomic>
+
+namespace carom::python {
+namespace {
+
+constexpr int kLooks = 300;  // 5 to 10 us
+
+/// Who took the GIL back last after it had computed; null once it has given it away to compute again. That it gave it away for
+/// another reason is not seen: then the next one looks in vain, once, as it stands here itself from then on.
+std::atomic<PyThreadState*> last_back = nullptr;
+
+void pause() {
+#if defined(__SSE2__) && defined(__x86_64__)
+  _mm_pause();
+#endif
+}
+
+}  // namespace
+
+GilFree::GilFree() : thread_(PyEval_SaveThread()) {
+  PyThreadState* self = thread_;
+  last_back.compare_exchange_strong(self, nullptr);
+}
+
+GilFree::~GilFree() {
+  for (int k = 0; k < kLooks && last_back.load(std::memory_order_relaxed); ++k) pause();
+  PyEval_RestoreThread(thread_);
+  last_back = thread_;
+}
+
+}  // namespace carom::python
