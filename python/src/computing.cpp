@@ -2,6 +2,8 @@
 #include "python/src/computing.hpp"
 
 #include <atomic>
+#include <chrono>
+#include <thread>
 
 namespace carom::python {
 namespace {
@@ -27,8 +29,24 @@ GilFree::GilFree() : thread_(PyEval_SaveThread()) {
 
 GilFree::~GilFree() {
   for (int k = 0; k < kLooks && last_back.load(std::memory_order_relaxed); ++k) pause();
-  PyEval_RestoreThread(thread_);
+  try {
+    PyEval_RestoreThread(thread_);
+  } catch (...) {
+    sleepUntilTheProgramEnds();
+  }
   last_back = thread_;
+}
+
+GilHeld::GilHeld() {
+  try {
+    state_ = PyGILState_Ensure();
+  } catch (...) {
+    sleepUntilTheProgramEnds();
+  }
+}
+
+void sleepUntilTheProgramEnds() {
+  for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
 }  // namespace carom::python

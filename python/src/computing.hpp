@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cxxabi.h>
+
 #include <memory>
 #include <utility>
 
@@ -54,6 +56,36 @@ class GilFree {
  private:
   PyThreadState* thread_;
 };
+
+/// Takes the GIL while it lives, in a call that computes without it.
+class GilHeld {
+ public:
+  GilHeld();
+  ~GilHeld() { PyGILState_Release(state_); }
+  GilHeld(const GilHeld&) = delete;
+  GilHeld& operator=(const GilHeld&) = delete;
+
+ private:
+  PyGILState_STATE state_;
+};
+
+/// Forever. Where the program ends, Python up to 3.13 unwinds each other thread as it takes the GIL, which ends with an abort in
+/// C++ that cannot be unwound; later ones have it sleep, as this does.
+[[noreturn]] void sleepUntilTheProgramEnds();
+
+/// Calls a function of Python, with the GIL.
+template <class... Arguments>
+nb::object calledBack(const nb::object& function, Arguments&&... arguments) {
+#ifdef __GLIBCXX__
+  try {
+    return function(std::forward<Arguments>(arguments)...);
+  } catch (const abi::__forced_unwind&) {
+    sleepUntilTheProgramEnds();
+  }
+#else
+  return function(std::forward<Arguments>(arguments)...);
+#endif
+}
 
 /// What every call that computes does first: it gives the GIL away, and computes plainly.
 class Computing {

@@ -54,7 +54,7 @@ class Worker {
 
 /// The error of Python's signal handlers, if one raised; without the GIL.
 std::exception_ptr signalled() {
-  const nb::gil_scoped_acquire held;
+  const GilHeld held;
   if (PyErr_CheckSignals() == 0) return nullptr;
   return std::make_exception_ptr(nb::python_error());
 }
@@ -62,10 +62,10 @@ std::exception_ptr signalled() {
 }  // namespace
 
 void Watch::look(const SimulateProgress& at) {
-  const nb::gil_scoped_acquire held;
+  const GilHeld held;
   try {
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
-    if (progress_.is_valid() && !progress_.is_none() && progress_(at).is(nb::bool_(false))) stop_.request_stop();
+    if (progress_.is_valid() && !progress_.is_none() && calledBack(progress_, at).is(nb::bool_(false))) stop_.request_stop();
   } catch (...) {
     raised_ = std::current_exception();
     stop_.request_stop();

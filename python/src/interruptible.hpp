@@ -12,6 +12,12 @@
 
 namespace carom::python {
 
+/// Throws TypeError unless an argument is a function, or None.
+inline void requireFunction(const nb::object& argument, const char* name) {
+  if (!argument.is_none() && PyCallable_Check(argument.ptr()) == 0)
+    throw nb::type_error((std::string(name) + ": expected a function or None").c_str());
+}
+
 /// Looks for Ctrl-C while a simulation runs in this thread, and tells its progress to a function of Python, or None. What
 /// is raised meanwhile stops it. It costs nothing: a simulation calls it every few thousand steps. Without a function (a null
 /// object) it may be made and destroyed without the GIL.

@@ -25,10 +25,10 @@ using OptionalWhen = std::optional<WhenArgument>;
 
 /// Calls the function of Python with a motion of its own, which it may keep.
 RowReading readingOf(const PyScene& scene, const nb::object& function, const Motion& motion) {
-  const nb::gil_scoped_acquire held;
+  const GilHeld held;
   const InCallback in;
   const PyMotion shown = motionOf(sceneWith(scene, *motion.scene), Motion(motion));
-  const nb::object answer = function(shown);
+  const nb::object answer = calledBack(function, shown);
   PyReading reading;
   if (!nb::try_cast<PyReading>(answer, reading))
     throw nb::type_error("a function of the motion gives a carom.Reading(value, seeds)");

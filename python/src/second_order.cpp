@@ -66,7 +66,7 @@ constexpr const char* kSecondOrderText =
 
 std::shared_ptr<nb::object> sharedFunction(const nb::object& function) {
   return {new nb::object(function), [](nb::object* kept) {
-            const nb::gil_scoped_acquire held;
+            const GilHeld held;
             delete kept;
           }};
 }
@@ -75,11 +75,11 @@ SeedRates seedRatesBy(const nb::object& function) {
   if (function.is_none()) return {};
   if (PyCallable_Check(function.ptr()) == 0) throw nb::type_error("seed_rates: expected a function of rates of states");
   return [kept = sharedFunction(function)](std::span<const BodyStateRate> rates) {
-    const nb::gil_scoped_acquire held;
+    const GilHeld held;
     std::vector<PyStateRate> shown;
     for (const BodyStateRate& rate : rates) shown.push_back({rate});
     std::vector<PySeed> seeds;
-    if (!nb::try_cast<std::vector<PySeed>>((*kept)(shown), seeds))
+    if (!nb::try_cast<std::vector<PySeed>>(calledBack(*kept, shown), seeds))
       throw nb::type_error("seed_rates gives a list of carom.Seed, one for each rate");
     std::vector<StateSeed> weights;
     for (const PySeed& seed : seeds) weights.push_back(seed.weights);

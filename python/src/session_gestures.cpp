@@ -47,14 +47,15 @@ PyUpdate updated(const PySession& self, Call call) {
 }
 
 PyUpdate dwelt(const PySession& self, const nb::object& better) {
+  requireFunction(better, "better");
   std::exception_ptr raised;
   std::optional<SessionUpdate> update;
   callLong(self, [&](EditSession& session, std::stop_source& stop) {
     const auto tell = [&](const SessionUpdate& found) {
-      const nb::gil_scoped_acquire held;
+      const GilHeld held;
       const InCallback in;
       try {
-        better(PyUpdate{self.content->scene, found});
+        calledBack(better, PyUpdate{self.content->scene, found});
       } catch (...) {
         raised = std::current_exception();
         stop.request_stop();

@@ -17,6 +17,7 @@ PyMotion simulated(const PyScene& scene, std::optional<double> duration, std::si
   options.groups = groups;
   options.refuse_overlaps = refuse_overlaps;
   options.record_events = record_events;
+  requireFunction(progress, "progress");
   Watch watch(progress);
   options.stop = watch.stop();
   options.progress = watch.progress();

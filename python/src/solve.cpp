@@ -25,10 +25,10 @@ class Callback {
   Callback(const nb::object& function, std::stop_source& stop) : function_(function), stop_(stop) {}
 
   bool operator()(const EditProgress& progress) {
-    const nb::gil_scoped_acquire held;
+    const GilHeld held;
     const InCallback in;
     try {
-      return !function_(progress).is(nb::bool_(false));
+      return !calledBack(function_, progress).is(nb::bool_(false));
     } catch (...) {
       if (!raised_) raised_ = std::current_exception();
       stop_.request_stop();
@@ -48,6 +48,7 @@ class Callback {
 
 PyEditResult solvedBy(const PyEdit& self, EditOptions options, const nb::object& progress) {
   InCallback::refuse();
+  requireFunction(progress, "progress");
   const OneAtATime::Use use(self.content->one, "the edit");
   std::stop_source stop;
   Callback callback(progress, stop);

@@ -37,7 +37,7 @@ ffi::ErrorOr<std::unique_ptr<RowsInProgram>> instantiate(std::int64_t number, st
 
 /// Ctrl-C is raised again once XLA has returned, which knows no exceptions of Python.
 std::string messageOf(const nb::python_error& error) {
-  const nb::gil_scoped_acquire held;
+  const GilHeld held;
   std::string message = pythonText(error.type().attr("__name__")) + ": " + pythonText(error.value());
   if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();  // the last: str() looks for it
   return message;
