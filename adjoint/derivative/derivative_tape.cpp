@@ -95,8 +95,8 @@ const ArcSensitivity& DerivativeTape::arc(int body, int k) {
   const WorldLine& line = motion_.world_lines[b];
   const std::size_t kk = checkedIndex("DerivativeTape::arc", "an arc that ends in an event,", k, line.events.size());
   auto& slot = arcs_[b][kk];
+  if (look_) look_();
   if (!slot) {
-    if (look_) look_();
     slot = std::make_unique<ArcSensitivity>(
         sensitivity(body, k, motion_.events[static_cast<std::size_t>(line.events[kk])].time));
   }
@@ -114,8 +114,8 @@ ArcSensitivity DerivativeTape::arcUntil(int body, int k, double t) {
   checkedIndex("DerivativeTape::arcUntil", "arc", k, arcs_[b].size());
   checkTime("DerivativeTape::arcUntil", motion_, t);
   const auto found = until_.find({body, k, t});
-  if (found != until_.end()) return found->second;
   if (look_) look_();
+  if (found != until_.end()) return found->second;
   if (until_.size() == kRemembered) until_.clear(), shared_.clear();
   return until_[{body, k, t}] = sensitivity(body, k, t);
 }
@@ -123,6 +123,7 @@ ArcSensitivity DerivativeTape::arcUntil(int body, int k, double t) {
 const SingleImpact* DerivativeTape::singleImpact(int event) {
   const std::size_t e = checkedIndex("DerivativeTape::singleImpact", "event", event, motion_.events.size());
   if (!SingleImpact::is(motion_.events[e])) return nullptr;
+  if (look_) look_();
   if (single_impacts_.empty()) {
     single_impacts_.resize(motion_.events.size());
     for (std::size_t b = 0; b < arcs_.size(); ++b)
@@ -135,8 +136,8 @@ const SingleImpact* DerivativeTape::singleImpact(int event) {
 
 const EventLinearization& DerivativeTape::event(int event) {
   auto& slot = events_[checkedIndex("DerivativeTape::event", "event", event, events_.size())];
+  if (look_) look_();
   if (!slot) {
-    if (look_) look_();
     slot = std::make_unique<EventLinearization>(motion_, event);
   }
   return *slot;
