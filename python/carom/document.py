@@ -34,6 +34,10 @@ def _plain(value: Any, pointer: str) -> Any:
 def to_text(document: Mapping[str, Any] | str) -> str:
     """The JSON text of a document; a text is taken as it is."""
     if isinstance(document, str):
+        try:
+            document.encode()
+        except UnicodeEncodeError as error:
+            raise InputError("", f"found {document[error.start]!r}, half of a character, expected text") from None
         return document
     if not isinstance(document, Mapping):
         raise TypeError(f"a scene is made from a dict or a JSON text, not from {type(document).__name__}")

@@ -25,6 +25,13 @@ struct PyEvents {
   }
 };
 
+std::vector<PyEvent> eventsOf(const PyEvents& self, const nb::slice& which) {
+  const auto [start, stop, step, count] = which.compute(self.all().size());
+  std::vector<PyEvent> events;
+  for (std::size_t k = 0; k < count; ++k) events.push_back(self.at(static_cast<long>(start) + static_cast<long>(k) * step));
+  return events;
+}
+
 std::vector<PyContact> contactsOf(const PyEvent& self) {
   std::vector<PyContact> all;
   for (const Contact& contact : self.event().contacts) all.push_back({self.content, &contact});
@@ -148,6 +155,7 @@ void bindEvents(nb::module_& module, nb::class_<PyMotion>& motion) {
   nb::class_<PyEvents>(module, "Events", "The events of a motion in increasing order of time: a sequence, with columns.")
       .def("__len__", [](const PyEvents& self) { return self.all().size(); })
       .def("__getitem__", &PyEvents::at, nb::arg("index"))
+      .def("__getitem__", &eventsOf, nb::arg("index"))
       .def("__iter__", &eventsInOrder, nb::sig("def __iter__(self) -> collections.abc.Iterator[Event]"))
       .def_prop_ro("time", &timesOf, kOwnArray, "s, one per event")
       .def_prop_ro("kind", [](const PyEvents& self) { return wordsOf(self, &Event::kind); }, "Event.kind of each.")

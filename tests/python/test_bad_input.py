@@ -100,6 +100,25 @@ def test_documents_have_a_pointer(document, pointer):
     assert not isinstance(error.value, carom.FormatError) or error.value.file == "mine"
 
 
+def test_half_a_character_is_no_text(motion):
+    for wrong in ('{"carom": 1, "name": "\ud800"}', {**BALL, "name": "\ud800"}):
+        with pytest.raises(carom.InputError):
+            carom.Scene(wrong)
+    with pytest.raises(TypeError):
+        motion.state_at("\ud800", 0.5)
+
+
+def test_what_is_no_function(motion):
+    edit = carom.Edit(motion.scene)
+    session = carom.EditSession(motion.scene)
+    session.set_controls([carom.velocity("ball")])
+    session.grab("ball", 0.3)
+    session.drag_to((0.6, 0, 1))
+    for wrong in (lambda: carom.simulate(motion.scene, progress=3), lambda: edit.solve(progress=3), lambda: session.dwell(3)):
+        with pytest.raises(TypeError, match="expected a function or None"):
+            wrong()
+
+
 def test_files(motion, tmp_path):
     closed = open(tmp_path / "closed.json", "w")
     closed.close()

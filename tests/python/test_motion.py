@@ -83,6 +83,8 @@ def test_events(ball):
     assert len(events) == motion.impacts == motion.event_count == len(list(events)) > 1
     assert events.time.tolist() == [event.time for event in events]
     assert events.kind == ["impact"] * len(events) and events.mode == [event.mode for event in events]
+    assert [event.time for event in events[1:]] == events.time[1:].tolist()
+    assert [event.time for event in events[::-1]] == events.time[::-1].tolist() and events[9:] == []
     first = events[0]
     fall = (1 + math.sqrt(1 + 2 * 9.81 * 0.97)) / 9.81
     assert abs(first.time - fall) < 1e-15
