@@ -16,6 +16,7 @@ import random
 import resource
 import signal
 import statistics
+import struct
 import subprocess
 import sys
 import tempfile
@@ -92,56 +93,86 @@ def scenes() -> Iterator[Row]:
     yield "import after NumPy", min(took) * 1e3, "ms", "<= 10"
 
 
+class Workers:
+    """Two threads, or two processes, that do their work each time they are told to, and say how long it took."""
+
+    def __init__(self, work: Callable[[], None], fork: bool) -> None:
+        self.tell, self.told = [], []
+        for _ in range(2):
+            begin, done = os.pipe(), os.pipe()
+            self.tell.append(begin[1])
+            self.told.append(done[0])
+            if not fork:
+                threading.Thread(target=self.serve, args=(work, begin[0], done[1])).start()
+            elif os.fork() == 0:
+                self.serve(work, begin[0], done[1])
+                os._exit(0)
+
+    @staticmethod
+    def serve(work: Callable[[], None], begin: int, done: int) -> None:
+        while os.read(begin, 1) == b"b":
+            others = -resource.getrusage(resource.RUSAGE_THREAD).ru_nivcsw
+            began = time.perf_counter()
+            work()
+            ended = time.perf_counter()
+            others += resource.getrusage(resource.RUSAGE_THREAD).ru_nivcsw
+            os.write(done, struct.pack("ddq", began, ended, others))
+
+    def took(self, count: int) -> float | None:
+        """That many at a time: the time of one of them. None where others had a processor meanwhile, or they did not begin at a time."""
+        for k in range(count):
+            os.write(self.tell[k], b"b")
+        runs = [struct.unpack("ddq", os.read(self.told[k], 24)) for k in range(count)]
+        took = sum(ended - began for began, ended, _ in runs) / count
+        apart = max(began for began, *_ in runs) - min(began for began, *_ in runs)
+        return None if any(others for *_, others in runs) or apart > 0.05 * took else took
+
+    def end(self) -> None:
+        for tell in self.tell:
+            os.write(tell, b"e")
+
+
 def threads() -> Iterator[Row]:
-    """How many times as many calls two threads make, the median of runs in turns; two processes do what the machine can."""
-    scene = carom.Scene(BALL)
+    """How many times as many calls two threads make: by bursts of milliseconds, as the machine does other things as well, and
+    the medians of those that nothing else came between. Two processes, in turns with them, do what the machine can."""
+    scene, crowd = carom.Scene(BALL), carom.Scene(crowd_of(3))
     seed = carom.Seed("ball", 1.6, position=(1, 0, 0))
     for what, calls, call in (
-            ("simulations with a row", 6000, lambda: carom.adjoint(carom.simulate(scene), seed)),
-            ("simulations of a crowd", 4, lambda crowd=carom.Scene(crowd_of(3)): carom.simulate(crowd, impact_limit=4000))):
+            ("simulations with a row", 200, lambda: carom.adjoint(carom.simulate(scene), seed)),
+            ("simulations of a crowd", 1, lambda: carom.simulate(crowd, impact_limit=1500))):
 
         def work(calls: int = calls, call: Callable[[], object] = call) -> None:
             for _ in range(calls):
                 call()
 
-        def of_threads(count: int, work: Callable[[], None] = work) -> float:
-            workers = [threading.Thread(target=work) for _ in range(count)]
-            began = time.perf_counter()
-            for worker in workers:
-                worker.start()
-            for worker in workers:
-                worker.join()
-            return time.perf_counter() - began
-
-        def of_processes(count: int, work: Callable[[], None] = work) -> float:
-            began = time.perf_counter()
-            children = []
-            for _ in range(count):
-                child = os.fork()
-                if child == 0:
-                    work()
-                    os._exit(0)
-                children.append(child)
-            for child in children:
-                os.waitpid(child, 0)
-            return time.perf_counter() - began
-
-        of_threads(1)
-        took = [(of_threads(1), of_threads(2), of_processes(1), of_processes(2), of_threads(2)) for _ in range(15)]
-        yield f"{what}, two threads beside one", statistics.median(2 * a / b for a, b, *_ in took), "times", ">= 1.9"
-        yield f"{what}, two processes beside one", statistics.median(2 * c / d for _, _, c, d, _ in took), "times", ""
-        # Threads before and after: what else the machine does changes in the meantime.
-        yield f"{what}, two threads beside two processes", statistics.median(2 * d / (b + e) for _, b, _, d, e in took), "times", ""
-        began = time.process_time()
-        of_threads(1), of_threads(1)
-        alone = time.process_time() - began
+        of_processes, of_threads = Workers(work, fork=True), Workers(work, fork=False)
+        took: dict[tuple[str, int], list[float]] = {}
+        for _ in range(300):
+            for name, workers in (("threads", of_threads), ("processes", of_processes)):
+                for count in (1, 2):
+                    time.sleep(0.002)  # after which the system lets it run for a while
+                    once = workers.took(count)
+                    if once:
+                        took.setdefault((name, count), []).append(once)
+        for name in ("threads", "processes"):
+            one, two = statistics.median(took[name, 1]), statistics.median(took[name, 2])
+            yield f"{what}, two {name} beside one", 2 * one / two, "times", ">= 1.9" if name == "threads" else ""
         waits = -resource.getrusage(resource.RUSAGE_SELF).ru_nvcsw
         began = time.process_time()
-        of_threads(2)
-        together = time.process_time() - began
+        for _ in range(50):
+            of_threads.took(1), of_threads.took(1)
+        alone = time.process_time() - began
         waits += resource.getrusage(resource.RUSAGE_SELF).ru_nvcsw
+        both = -resource.getrusage(resource.RUSAGE_SELF).ru_nvcsw
+        began = time.process_time()
+        for _ in range(50):
+            of_threads.took(2)
+        together = time.process_time() - began
+        both += resource.getrusage(resource.RUSAGE_SELF).ru_nvcsw
         yield f"{what}, processor time of two threads at a time beside one after the other", together / alone, "times", ""
-        yield f"{what}, waits of two threads for each other", waits / (2 * calls), "a call", ""
+        yield f"{what}, waits of two threads for each other", max(0, both - waits) / (100 * calls), "a call", ""
+        of_processes.end()
+        of_threads.end()
 
 
 def answers(call: Callable[[], object], longest: float, tries: int, draw: random.Random) -> list[float]:

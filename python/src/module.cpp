@@ -12,6 +12,9 @@ NB_MODULE(_carom, module) {
   using namespace carom::python;
   module.doc() = "Exact event-driven rigid bodies, with derivatives and edits.";
   module.attr("version") = carom::kVersion;
+#ifdef NDEBUG
+  nb::set_leak_warnings(false);  // of a program that ends within its threads, or keeps things in cycles, they say that carom is wrong
+#endif
   registerErrors();
   bindScene(module);
   bindMotion(module);
