@@ -45,6 +45,14 @@ BALL = {
          "position": [0, 0, 0.5], "velocity": [2, 0, 1], "angular_velocity": [0, 10, 0]},
     ],
 }
+# It tumbles and meets the floor four times in 0.6 s: a simulation of 36 us.
+BOX = {
+    **BALL,
+    "duration": 0.6,
+    "bodies": [BALL["bodies"][0],
+               {"name": "box", "material": "rubber", "mass": 0.06, "shape": {"box": {"size": [0.03, 0.05, 0.08]}},
+                "position": [0, 0, 0.3], "velocity": [2, 0, 1], "angular_velocity": [1, 10, 3]}],
+}
 SCENES = HERE.parents[1] / "examples" / "scenes"
 
 Row = tuple[str, float, str, str]  # what, how much, of which unit, wanted
@@ -135,10 +143,11 @@ class Workers:
 def threads() -> Iterator[Row]:
     """How many times as many calls two threads make: by bursts of milliseconds, as the machine does other things as well, and
     the medians of those that nothing else came between. Two processes, in turns with them, do what the machine can."""
-    scene, crowd = carom.Scene(BALL), carom.Scene(crowd_of(3))
+    scene, box, crowd = carom.Scene(BALL), carom.Scene(BOX), carom.Scene(crowd_of(3))
     seed = carom.Seed("ball", 1.6, position=(1, 0, 0))
     for what, calls, call in (
-            ("simulations with a row", 200, lambda: carom.adjoint(carom.simulate(scene), seed)),
+            ("simulations of a ball with a row", 200, lambda: carom.adjoint(carom.simulate(scene), seed)),
+            ("simulations of a box", 80, lambda: carom.simulate(box)),
             ("simulations of a crowd", 1, lambda: carom.simulate(crowd, impact_limit=1500))):
 
         def work(calls: int = calls, call: Callable[[], object] = call) -> None:

@@ -47,6 +47,9 @@ def direct() -> bool:
 def _like(x: Any, n: int) -> Any:
     """x as floats of JAX, checked while it is traced; warns once of 32 bits."""
     global _warned
+    x = jnp.asarray(x)
+    if jnp.iscomplexobj(x):
+        raise InputError("x", f"found values of the type {x.dtype}, expected real numbers")
     x = jnp.asarray(x, dtype=jnp.result_type(float))
     if x.shape != (n,):
         raise InputError("x", f"found the shape {x.shape}, expected ({n},); jax.vmap does batches")

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from carom import batches
 from carom._carom import Control, NlpEvaluator, Scene
+from carom.errors import InputError
 
 try:
     import torch
@@ -21,6 +22,8 @@ except ImportError:
 
 
 def _array(x: Any) -> batches.Floats:
+    if not x.is_floating_point():  # what comes of it would be rounded to its type
+        raise InputError("x", f"found values of the type {x.dtype}, expected floating-point numbers")
     array: batches.Floats = x.detach().to("cpu", torch.float64).numpy()
     return array
 

@@ -64,6 +64,14 @@ void bindOtherKinds(nb::module_& module) {
 
 }  // namespace
 
+std::vector<Control> controlsIn(const nb::args& arguments) {
+  std::vector<Control> all(arguments.size());
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (!nb::try_cast<Control>(arguments[k], all[k]))
+      throw nb::type_error(("expected controls such as carom.velocity('ball'), found " + pythonText(nb::repr(arguments[k]))).c_str());
+  return all;
+}
+
 void bindControls(nb::module_& module) {
   nb::class_<Control>(module, "Control",
                       "Scene parameters that an edit may change; the functions velocity, elasticity and so on make them. "

@@ -49,6 +49,9 @@ using WhenArgument = std::variant<double, When>;
 When whenOf(const WhenArgument& argument);
 std::string whenText(const When& when);  ///< "at rest", "0.5 s"
 
+/// Throws TypeError for what is no control.
+std::vector<Control> controlsIn(const nb::args& arguments);
+
 /// First and last second of an interval.
 using Interval = std::optional<std::pair<double, double>>;
 

@@ -19,8 +19,7 @@ PyEdit documentEdit(const PyScene& scene) {
 
 PyEdit& variedEdit(PyEdit& self, const nb::args& controls) {
   const OneAtATime::Use use(self.content->one, "the edit");
-  std::vector<Control> all;  // all of them or none
-  for (const nb::handle control : controls) all.push_back(nb::cast<Control>(control));
+  const std::vector<Control> all = controlsIn(controls);  // all of them or none
   for (const Control& control : all) self.content->edit.vary(control);
   return self;
 }

@@ -37,8 +37,7 @@ void makeSession(PySession* self, const PyScene& scene, std::optional<double> du
 }
 
 void varySession(const PySession& self, const nb::args& controls) {
-  std::vector<Control> more;
-  for (const nb::handle control : controls) more.push_back(nb::cast<Control>(control));
+  const std::vector<Control> more = controlsIn(controls);
   readFrom(self, [&](EditSession& session) {
     std::vector<Control> all = session.controls();
     all.insert(all.end(), more.begin(), more.end());

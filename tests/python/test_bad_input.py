@@ -119,6 +119,15 @@ def test_what_is_no_function(motion):
             wrong()
 
 
+def test_what_is_no_control(motion):
+    edit, session = carom.Edit(motion.scene), carom.EditSession(motion.scene)
+    for vary in (edit.vary, session.vary):
+        for wrong in (3, None, "velocity", [carom.velocity("ball")]):
+            with pytest.raises(TypeError, match="expected controls such as"):
+                vary(carom.velocity("ball"), wrong)
+    assert not edit.controls and not session.controls
+
+
 def test_files(motion, tmp_path):
     closed = open(tmp_path / "closed.json", "w")
     closed.close()

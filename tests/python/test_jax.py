@@ -245,6 +245,8 @@ def test_what_is_wrong_is_said(ball, evaluator):
     function = carom.jax.rows(evaluator)
     with pytest.raises(carom.InputError, match=r"found the shape \(3,\), expected \(4,\)"):
         function(jnp.zeros(3))
+    with pytest.raises(carom.InputError, match="found values of the type complex128, expected real numbers"):
+        function(jnp.zeros(4, complex))
     with pytest.raises(Exception, match="finite"):
         jax.block_until_ready(function(jnp.array([np.nan, 0, 0, 0.5])))
     with pytest.raises(ValueError, match="do not support JVP|cannot be differentiated"):

@@ -67,6 +67,9 @@ def test_what_is_wrong_is_said(ball):
         function(torch.tensor([2.0, 0, 1]))
     with pytest.raises(carom.InputError, match=r"found the shape \(2,\), expected \(..., 3\)"):
         function(torch.zeros(2))
+    for wrong in (torch.tensor([2, 0, 1]), torch.zeros(3, dtype=torch.complex128)):  # values would be rounded to whole ones
+        with pytest.raises(carom.InputError, match="expected floating-point numbers"):
+            function(wrong)
     x = torch.tensor([2.0, 0, 1], dtype=torch.float64, requires_grad=True)
     states = carom.torch.states(ball, [carom.velocity("ball")], ["ball"], [1.0])
     gradient, = torch.autograd.grad(states(x).position.square().sum(), x, create_graph=True)
