@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "editing/detail/parallel.hpp"
 
+#include <algorithm>
+
 #if defined(__SANITIZE_THREAD__)
 #include <condition_variable>
 #include <exception>
-#include <thread>
 #else
 #include <optional>
 
@@ -114,14 +115,16 @@ ContactSource* ContactPool::take() {
     made_.push_back(first_.another());
     return made_.back().get();
   }
-  ContactSource* source = free_.back();
-  free_.pop_back();
+  auto lent = std::ranges::find(free_, std::this_thread::get_id(), &Free::last_lent_to);
+  if (lent == free_.end()) lent = free_.end() - 1;
+  ContactSource* source = lent->source;
+  free_.erase(lent);
   return source;
 }
 
 void ContactPool::give(ContactSource* source) {
   const std::lock_guard lock(mutex_);
-  free_.push_back(source);
+  free_.push_back({source, std::this_thread::get_id()});
 }
 
 }  // namespace carom::editing_detail

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 #include "adjoint/motion/contact_source.h"
@@ -34,7 +35,7 @@ class ThreadPool {
 class ContactPool {
  public:
   /// `first` is kept by reference, and lent like the others.
-  explicit ContactPool(ContactSource& first) : first_(first), free_{&first} {}
+  explicit ContactPool(ContactSource& first) : first_(first), free_{{&first, {}}} {}
 
   /// False where only one simulation can run at a time.
   bool isShareable() const { return first_.another() != nullptr; }
@@ -60,7 +61,12 @@ class ContactPool {
   std::mutex mutex_;
   ContactSource& first_;
   std::vector<std::unique_ptr<ContactSource>> made_;
-  std::vector<ContactSource*> free_;
+  /// It goes to the thread that had it last, if that comes back: its memory is in the cache of that processor.
+  struct Free {
+    ContactSource* source;
+    std::thread::id last_lent_to;
+  };
+  std::vector<Free> free_;
 };
 
 }  // namespace carom::editing_detail
