@@ -105,6 +105,7 @@ class Simulator {
     std::optional<GroupBeyond> group_beyond;              // of a transition
     std::vector<int> unheld;        // supports that the loads after the event move
     std::vector<Contact> pressing;  // between bodies that do not
+    std::vector<int> closing;       // whose contacts would close, went each by itself
     std::vector<Contact> touching;  // of what is placed: all contacts, whether they press or not
     std::vector<int> woken;         // bodies that rested on others, or under them, and do not stay
     std::string beyond;             // why the motion ends: persistent contact that is not modelled
@@ -233,6 +234,7 @@ class Simulator {
   double sizeAt(const Contact& contact) const;
   void addConstrained();
   void chooseArcs();
+  void goOnInParts();
   void fly(std::size_t participant);
   void chooseArc(std::size_t participant);
   ModeHint hintOf(const std::vector<Contact>& closed) const;
@@ -247,7 +249,7 @@ class Simulator {
   std::optional<PredictedImpact> besideConstrained(int a, int b, double from, double until);
 
   // simulator_pressing.cpp: what ends a motion though no contact is new
-  void endWherePressed();
+  std::vector<const Contact*> closingContacts();
   bool wouldMoveOnEdges(ContactChoice& choice);
   bool lieAlongEdges(const std::vector<const Contact*>& contacts, const std::vector<Contact>& others);
 

@@ -207,7 +207,8 @@ void Simulator::chooseRest(const std::vector<int>& touching, const std::vector<C
   if (std::ranges::any_of(rests, [](const auto& rest) { return !rest; }))
     if (auto whole = restOf(touching, closed, no_slip, true)) return holdAtRest(*whole);
   const bool all_rest = std::ranges::all_of(rests, [](const auto& rest) { return rest.has_value(); });
-  if (!all_rest && groups_) {
+  const bool closes = std::ranges::any_of(draft_.closing, [&](int body) { return has(touching, body); });
+  if ((!all_rest || closes) && groups_) {
     std::ranges::copy_if(touching, std::back_inserter(draft_.unheld), [&](int body) { return isSupport(body); });
     if (draft_.unheld.empty()) joinGroups(touching, closed);
     return;

@@ -85,10 +85,34 @@ void Simulator::chooseArcs() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) fly(i);
     return;
   }
+  draft_.closing.clear();
+  const std::vector<State> after = draft_.after;
+  goOnInParts();
+  std::vector<const Contact*> closing = closingContacts();
+  if (groups_ && !closing.empty()) {  // once more, these held to each other
+    for (const Contact* c : closing) draft_.closing.push_back(c->a), draft_.closing.push_back(c->b);
+    draft_.after = after;
+    draft_.arcs.clear();
+    draft_.contact_state.clear();
+    goOnInParts();
+    closing = closingContacts();
+  }
+  if (!closing.empty()) endBeyond(*closing.front(), "one of them would move, and motion on bodies that can move is not modelled yet");
+  for (Contact& c : event.contacts) {
+    if (!c.lasts) continue;
+    c.lasts = std::ranges::any_of(draft_.contact_state, [&](const BodyContactState& contact_state) {
+      return std::ranges::any_of(contact_state.held, [&](const Contact& h) { return isSameContact(c, h); });
+    });
+    if (c.lasts && !c.held && event.kind == EventKind::impact) event.kind = EventKind::capture;
+  }
+}
+
+// At rest on each other, as groups, and each of the others by itself.
+void Simulator::goOnInParts() {
   draft_.contact_state.resize(bodies_.size());
   chooseComponents();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (event.participants[i].stays)
+    if (draft_.event.participants[i].stays)
       keep(i);
     else if (draft_.resting[i])
       rest(i);
@@ -96,14 +120,6 @@ void Simulator::chooseArcs() {
       followGroup(i);
     else
       chooseArc(i);
-  }
-  endWherePressed();
-  for (Contact& c : event.contacts) {
-    if (!c.lasts) continue;
-    c.lasts = std::ranges::any_of(draft_.contact_state, [&](const BodyContactState& contact_state) {
-      return std::ranges::any_of(contact_state.held, [&](const Contact& h) { return isSameContact(c, h); });
-    });
-    if (c.lasts && !c.held && event.kind == EventKind::impact) event.kind = EventKind::capture;
   }
 }
 

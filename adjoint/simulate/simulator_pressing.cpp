@@ -20,8 +20,9 @@ constexpr double kDiffers = 1e-6;
 
 }  // namespace
 
-// What friction slows down may press on what touches it, which forces along the normals do not tell.
-void Simulator::endWherePressed() {
+// What friction slows down may press on what touches it, which forces along the normals do not tell: contacts of the draft that
+// close although none holds their bodies.
+std::vector<const Contact*> Simulator::closingContacts() {
   const double time = draft_.event.time;
   double pull = 0;
   const auto sideOf = [&](int body) -> ContactSide {
@@ -34,12 +35,13 @@ void Simulator::endWherePressed() {
     return {s, FreeAcceleration{rate.v, A * (rate.L - (A * s.L).cross(s.L))}};
   };
   const auto rubs = [&](int body) { return !pathOf(body).isFlight() && pathOf(body).kind() != ArcKind::rest; };
+  std::vector<const Contact*> closing;
   for (const Contact& c : draft_.event.contacts) {
     if (!c.lasts || !joinsMoved(c) || !(rubs(c.a) || rubs(c.b)) || !draft_.beyond.empty()) continue;
     const ContactSide a = sideOf(c.a), b = sideOf(c.b);
-    if (gapAcceleration(motion_, c, a, b) < -kPressing * std::max(pull, scene_.gravity.norm()))
-      endBeyond(c, "one of them would move, and motion on bodies that can move is not modelled yet");
+    if (gapAcceleration(motion_, c, a, b) < -kPressing * std::max(pull, scene_.gravity.norm())) closing.push_back(&c);
   }
+  return closing;
 }
 
 // Whether a body is on edges that lie along each other, and would move. One that rests there would not stay, were it a little aside.
