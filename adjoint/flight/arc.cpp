@@ -49,8 +49,13 @@ void Arc::take(const TrajectoryBounds& bounds) {
 }
 
 Arc Arc::fork() const {
+  auto trajectory = trajectory_->fork();
+  return trajectory ? on(std::move(trajectory)) : *this;
+}
+
+Arc Arc::on(std::shared_ptr<adjoint_detail::Trajectory> trajectory) const {
   Arc own = *this;
-  if (auto trajectory = trajectory_->fork()) own.trajectory_ = std::move(trajectory);
+  own.trajectory_ = std::move(trajectory);
   return own;
 }
 

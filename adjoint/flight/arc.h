@@ -61,6 +61,8 @@ class Arc {
 
   /// A copy that is extended apart from this one.
   Arc fork() const;
+  /// The same arc on a copy of its trajectory.
+  Arc on(std::shared_ptr<adjoint_detail::Trajectory> trajectory) const;
 
   ArcKind kind() const;                                     ///< flight, or the kind of persistent contact
   bool isStraight() const { return straight_; }             ///< its acceleration is constant

@@ -52,6 +52,19 @@ class GroupModeSearch {
     return turnAll(ways_, later.used_) && isConsistent();
   }
 
+  // The ways that the candidates have.
+  bool keep() {
+    ways_.clear();
+    std::vector<Vec3> direction = direction_;
+    for (std::size_t k = 0; k < candidates_.size(); ++k) {
+      const GroupContact& c = candidates_[k];
+      ways_.push_back(c.mode == ContactMode::sticks ? GroupWay::sticks : c.begins ? GroupWay::begins : GroupWay::slides);
+      slips_[k] = ways_[k] == GroupWay::slides && rubs(k);
+      if (c.begins) direction[k] = c.slip;
+    }
+    return turnAll(ways_, direction);
+  }
+
   GroupModes answer() const {
     GroupModes modes;
     for (std::size_t k = 0; k < ways_.size(); ++k) {
@@ -277,6 +290,12 @@ GroupModes chooseGroupModes(const GroupScene& scene, const std::vector<GroupCont
   GroupModes none;
   none.unresolved = "no forces within the friction cones keep them in contact, and none let them separate";
   return none;
+}
+
+std::vector<GroupContact> inSameModes(const GroupScene& scene, const std::vector<GroupContact>& contacts, const std::vector<State>& states, double t) {
+  GroupModeSearch search(scene, contacts, states, t, {});
+  if (!search.keep()) throw NotComputable("the directions in which contacts of bodies that move on each other begin to slip are not known");
+  return search.answer().contacts;
 }
 
 }  // namespace carom::adjoint_detail

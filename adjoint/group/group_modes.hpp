@@ -30,4 +30,8 @@ struct GroupHint {
 GroupModes chooseGroupModes(const GroupScene& scene, const std::vector<GroupContact>& candidates, const std::vector<State>& states, double t,
                             const GroupHint& hint);
 
+/// These contacts in the modes that they have, with the directions of their slips at states at time t. Throws NotComputable where slips that
+/// begin have none.
+std::vector<GroupContact> inSameModes(const GroupScene& scene, const std::vector<GroupContact>& contacts, const std::vector<State>& states, double t);
+
 }  // namespace carom::adjoint_detail

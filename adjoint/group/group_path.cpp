@@ -19,10 +19,12 @@ constexpr double kMostLeftOfSpeed = 1e-9;
 
 }  // namespace
 
-GroupPath::GroupPath(GroupScene scene, std::vector<GroupContact> contacts, bool redundant, std::vector<State> start, double until)
+GroupPath::GroupPath(GroupScene scene, std::vector<GroupContact> contacts, bool redundant, std::vector<State> start, double until,
+                     const Ends& ends)
     : scene_(std::move(scene)), contacts_(std::move(contacts)), redundant_(redundant), start_(std::move(start)), last_(start_),
       start_time_(scene_.time), until_(until), known_(scene_.time), bounds_(start_.size()), kinds_(start_.size(), ArcKind::pivot) {
   guards_ = guardsOf(scene_, contacts_, start_, start_time_);
+  if (ends) std::erase_if(guards_, [&](const ConstrainedGuard& guard) { return !ends(guard); });
   const GroupInstant now = instantOf(scene_, contacts_, start_, start_time_, slipAfter());
   double spin = std::sqrt(scene_.pull() / scene_.length);
   for (const MemberInstant& m : now.members) spin = std::max(spin, m.w.norm());
@@ -43,6 +45,10 @@ GroupPath::GroupPath(GroupScene scene, std::vector<GroupContact> contacts, bool 
     }
   }
   if (start_time_ < until_) extend();
+}
+
+std::shared_ptr<GroupPath> GroupPath::endedBy(const Ends& ends) const {
+  return std::make_shared<GroupPath>(scene_, contacts_, redundant_, start_, until_, ends);
 }
 
 void GroupPath::extendTo(const Arc&, double t) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -17,8 +18,11 @@ class GroupPath final : public Trajectory {
  public:
   using Ending = PathEnding;
 
+  /// Which guards may end it; empty: all.
+  using Ends = std::function<bool(const ConstrainedGuard&)>;
+
   /// `until`: nothing later is asked for. Throws NotComputable where not even a first step can be made.
-  GroupPath(GroupScene scene, std::vector<GroupContact> contacts, bool redundant, std::vector<State> start, double until);
+  GroupPath(GroupScene scene, std::vector<GroupContact> contacts, bool redundant, std::vector<State> start, double until, const Ends& ends = {});
 
   ArcKind kind() const override { return ArcKind::slide; }
   ArcKind kindOf(const Arc& arc) const override { return kinds_[slotOf(arc)]; }
@@ -38,6 +42,9 @@ class GroupPath final : public Trajectory {
   std::shared_ptr<const SharedLinearization> lineariseShared(const Motion& motion, double t) const override;
   std::shared_ptr<const PathGuard> guardOfEnd(const Motion& motion, const Event& event) const override;
   const GroupPath* group() const override { return this; }
+
+  /// The same path where no other guards may end it.
+  std::shared_ptr<GroupPath> endedBy(const Ends& ends) const;
 
   State stateAt(std::size_t member, double t) const;
   std::vector<State> statesAt(double t) const;

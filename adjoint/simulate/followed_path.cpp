@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "adjoint/base/errors.h"
+#include "adjoint/group/group_path.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
@@ -76,6 +77,24 @@ void extendAlong(const Motion& motion, const FollowedPath& held, Arc& arc, doubl
   arc = constrainedAlong(motion, *held.like, held.ends ? ConstrainedEnds::same : ConstrainedEnds::none, arc.startState(), held.contacts,
                   arc.start()).arc;
   arc.extendTo(time);
+}
+
+void extendGroup(Motion& motion, const FollowedPath& held, int body, double time) {
+  Arc& arc = motion.world_lines[asIndex(body)].arcs.back();
+  const GroupPath* path = arc.trajectory().group();
+  if (!path) return;
+  arc.extendTo(time);
+  if (!(arc.knownUntil() < time) || !path->ending()) return;
+  const auto same = [&](const ConstrainedGuard& guard) {
+    return held.ends && held.group->ending() && guard.isSame(held.group->ending()->guard);
+  };
+  if (same(path->ending()->guard)) return;
+  const std::shared_ptr<GroupPath> on = path->endedBy(same);
+  for (const SharedLinearization::Member& member : path->membersIn(motion)) {
+    Arc& of = motion.world_lines[asIndex(member.body)].arcs[asIndex(member.arc)];
+    of = of.on(on);
+    of.extendTo(time);
+  }
 }
 
 bool landsFlat(const Motion& motion, const Event& event) {

@@ -15,6 +15,7 @@ struct FollowedPath {
   PathTransition transition;
   const ConstrainedPath* like = nullptr;  ///< of a path that contacts hold: that which it follows
   bool ends = false;               ///< `like` is followed to its end
+  const GroupPath* group = nullptr;  ///< the same of one of several bodies
 
   /// When the contact that the event `was` begins with comes to the border that it came to, in seconds from the start of
   /// the arc.
@@ -30,6 +31,9 @@ struct FollowedPath {
 /// Takes an arc up to a time, or to where `like` ends. Any guard that falls to 0 before ends it at first; then it is made
 /// anew without it: what is followed goes on there.
 void extendAlong(const Motion& motion, const FollowedPath& held, Arc& arc, double time);
+
+/// The same of a body that moves on others: of all arcs that share its trajectory.
+void extendGroup(Motion& motion, const FollowedPath& held, int body, double time);
 
 /// Whether a rim that holds a body comes to lie flat at an event, or tilts from there on: the lowest point of it there is that
 /// of this motion, and of none beside it.

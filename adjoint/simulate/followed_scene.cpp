@@ -2,6 +2,7 @@
 #include "adjoint/simulate/followed_scene.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 #include "adjoint/base/errors.h"
@@ -35,10 +36,23 @@ Plan planFor(const Motion& like, const Scene& scene, const std::vector<BodyModel
   return plan;
 }
 
-bool joinsGroup(const Motion& motion, const Event& event) {
-  return std::ranges::any_of(event.participants, [&](const Participant& p) {
-    return motion.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.next())].trajectory().group() != nullptr;
-  });
+bool orderByTime(Motion& motion) {
+  const auto earlier = [](const Event& a, const Event& b) { return a.time < b.time; };
+  if (std::ranges::is_sorted(motion.events, earlier)) return false;
+  std::vector<int> order(motion.events.size()), place_of(motion.events.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  std::ranges::stable_sort(order, {}, [&](int e) { return motion.events[at(e)].time; });
+  std::vector<Event> sorted;
+  sorted.reserve(order.size());
+  for (int e : order) {
+    place_of[at(e)] = static_cast<int>(sorted.size());
+    sorted.push_back(std::move(motion.events[at(e)]));
+  }
+  motion.events = std::move(sorted);
+  for (WorldLine& line : motion.world_lines)
+    for (int& e : line.events) e = place_of[at(e)];
+  return true;
 }
 
 }  // namespace carom::adjoint_detail

@@ -11,7 +11,7 @@ void requireSameParts(const Scene& was, const Scene& scene);
 /// The tiers of `like`, but for bodies whose moments have gained or lost a symmetry.
 Plan planFor(const Motion& like, const Scene& scene, const std::vector<BodyModel>& models);
 
-/// Whether bodies move on each other from an event on, which no replay follows.
-bool joinsGroup(const Motion& motion, const Event& event);
+/// Puts events in the order of their times; whether that changes anything.
+bool orderByTime(Motion& motion);
 
 }  // namespace carom::adjoint_detail

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "adjoint/base/arguments.hpp"
 #include "adjoint/base/refuse.hpp"
@@ -11,6 +10,7 @@
 #include "adjoint/motion/guard.hpp"
 #include "adjoint/simulate/followed_path.hpp"
 #include "adjoint/simulate/followed_scene.hpp"
+#include "adjoint/simulate/group_of.hpp"
 #include "adjoint/simulate/guard_root.hpp"
 #include "adjoint/simulate/motion_builder.hpp"
 #include "adjoint/simulate/simulator.hpp"
@@ -68,7 +68,7 @@ class Follower {
       motion_.end = std::min(motion_.duration, like_.end + (motion_.events.back().time - like_.events.back().time));
       motion_.message = like_.message;
     }
-    orderByTime();
+    along_.order_changed = orderByTime(motion_);
     for (std::size_t b = 0; b < motion_.world_lines.size(); ++b) extendLast(b);
     along_.motion = std::move(motion_);
     return std::move(along_);
@@ -80,6 +80,7 @@ class Follower {
   void extendLast(std::size_t body) {
     Arc& arc = motion_.world_lines[body].arcs.back();
     try {
+      extendGroup(motion_, held_[body], static_cast<int>(body), motion_.end);
       extendAlong(motion_, held_[body], arc, motion_.end);
     } catch (const NotComputable& error) {
       motion_.end = std::min(motion_.end, arc.availableUntil());
@@ -102,7 +103,6 @@ class Follower {
       if (c.captured || c.kept) c.pair.elasticity = 0;
       if (was.kind == EventKind::placed) c.pair.friction = 0;
     }
-    if (joinsGroup(like_, was)) return fail(was, "bodies move on each other from there");
     if (was.kind == EventKind::placed) return meet(was, 0);
     if (landsFlat(like_, was)) return fail(was, "a rim became flat there");
     if (was.kind == EventKind::transition) return followTransition(was);
@@ -146,7 +146,11 @@ class Follower {
     const FollowedPath& held = held_[index(body)];
     if (!arc.inContact()) return fail(was, "the bodies are not in contact");
     std::optional<double> elapsed;
-    if (arc.isIntegrated()) {
+    if (arc.trajectory().group()) {
+      extendGroup(motion_, held, body, motion_.duration);
+      const std::optional<PathEnding>& end = arcOf(body).trajectory().group()->ending();
+      if (end && end->guard.cause == was.cause) elapsed = arcOf(body).knownUntil() - arc.start();
+    } else if (arc.isIntegrated()) {
       extendAlong(motion_, held, arcOf(body), motion_.duration);
       const PathTransition end = constrainedTransition(arc, arc.start());
       if (end.cause == was.cause) elapsed = end.elapsed;
@@ -189,6 +193,7 @@ class Follower {
   void place(double time) {
     event_.time = time;
     for (Participant& p : event_.participants) {
+      extendGroup(motion_, held_[index(p.body)], p.body, time);
       Arc& arc = arcOf(p.body);
       extendAlong(motion_, held_[index(p.body)], arc, time);
       p.before = arc.stateAt(time);
@@ -226,24 +231,39 @@ class Follower {
 
   void commit(const Event& was, std::vector<State> after) {
     if (branchOf(event_.mode) != branchOf(was.mode)) along_.mode_changed = true;
-    closeComponent(after);
+    closeComponent(was, after);
     std::vector<Arc> arcs;
-    for (std::size_t i = 0; i < after.size(); ++i)
-      arcs.push_back(was.participants[i].stays ? arcOf(was.participants[i].body) : arcAfter(was, i, after[i]));
+    std::vector<std::optional<Arc>> groups = groupsAlong(like_, was, motion_, after, event_.time);
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      const Participant& p = was.participants[i];
+      if (groups[i]) held_[index(p.body)] = {.ends = endsByItself(p), .group = groupAfter(like_, p)};
+      arcs.push_back(groups[i] ? std::move(*groups[i]) : p.stays ? arcOf(p.body) : arcAfter(was, i, after[i]));
+    }
     builder_.add(std::move(event_), std::move(arcs));
+  }
+
+  // Whether the arc of what is followed ends by itself after an event.
+  bool endsByItself(const Participant& p) const {
+    const std::vector<int>& events = like_.world_lines[index(p.body)].events;
+    return index(p.next()) < events.size() && like_.events[index(events[index(p.next())])].kind == EventKind::transition;
   }
 
   bool isMoved(int body) const { return !scene_.bodies[index(body)].immovable(); }
   bool liesOnAnother(const Contact& c) const { return c.lasts && isMoved(c.a) && isMoved(c.b); }
 
-  // The gaps of bodies that come to rest on each other close together.
-  void closeComponent(std::vector<State>& after) {
+  // The gaps of bodies that come to rest on each other close together; those of groups as their paths begin.
+  void closeComponent(const Event& was, std::vector<State>& after) {
     if (std::ranges::none_of(event_.contacts, [&](const Contact& c) { return liesOnAnother(c) && !c.held; })) return;
     std::vector<SupportedComponent::Member> members;
     std::vector<Contact> closed;
-    std::ranges::copy_if(event_.contacts, std::back_inserter(closed), &Contact::lasts);
+    const auto moves = [&](int body) {
+      const Participant* p = was.find(body);
+      return p && groupAfter(like_, *p);
+    };
+    std::ranges::copy_if(event_.contacts, std::back_inserter(closed), [&](const Contact& c) { return c.lasts && !moves(c.a) && !moves(c.b); });
+    if (closed.empty()) return;
     for (std::size_t i = 0; i < after.size(); ++i)
-      if (const Participant& p = event_.participants[i]; !p.stays && isMoved(p.body)) members.push_back({p.body, after[i]});
+      if (const Participant& p = event_.participants[i]; !p.stays && isMoved(p.body) && !moves(p.body)) members.push_back({p.body, after[i]});
     closeGaps(motion_, members, closed, event_.time);
     for (const SupportedComponent::Member& m : members) after[static_cast<std::size_t>(event_.find(m.body) - event_.participants.data())] = m.state;
   }
@@ -288,24 +308,6 @@ class Follower {
       c.pair = builder_.pairOf(c.a, c.b);
     }
     return held.follow(motion_, like_, p, after, contacts, event_.time);
-  }
-
-  void orderByTime() {
-    const auto earlier = [](const Event& a, const Event& b) { return a.time < b.time; };
-    if (std::ranges::is_sorted(motion_.events, earlier)) return;
-    along_.order_changed = true;
-    std::vector<int> order(motion_.events.size()), place_of(motion_.events.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::stable_sort(order, {}, [&](int e) { return motion_.events[index(e)].time; });
-    std::vector<Event> sorted;
-    sorted.reserve(order.size());
-    for (int e : order) {
-      place_of[index(e)] = static_cast<int>(sorted.size());
-      sorted.push_back(std::move(motion_.events[index(e)]));
-    }
-    motion_.events = std::move(sorted);
-    for (WorldLine& line : motion_.world_lines)
-      for (int& e : line.events) e = place_of[index(e)];
   }
 
   Outcome fail(const Event& was, const std::string& why) {

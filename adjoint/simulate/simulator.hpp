@@ -267,7 +267,7 @@ class Simulator {
   }
 
   // simulator_reuse.cpp: paths that are taken over
-  Arc takenArcOf(int body) const;
+  Arc takenArcOf(int body);
   void takeOver();
   bool invalidatesReuse(int body);
 
@@ -319,6 +319,7 @@ class Simulator {
   std::function<bool(const Motion&)> stop_when_;  // empty once it has said yes
   double least_duration_, last_asked_for_ = EventQueue::kNever;  // nothing after it is asked for
   bool groups_, refuse_overlaps_;
+  std::map<const Trajectory*, std::shared_ptr<Trajectory>> taken_groups_;  // of what was taken over
   WorkCount work_;
   bool work_ended_ = false;
   double now_ = 0;     // everything before it is known

@@ -7,6 +7,7 @@
 #include "adjoint/group/group_start.hpp"
 #include "adjoint/numeric/union_find.hpp"
 #include "adjoint/simulate/contact_modes.hpp"
+#include "adjoint/simulate/group_of.hpp"
 #include "adjoint/simulate/simulator.hpp"
 
 // Bodies that move on each other: groups, with one path each (docs/equations.md, 11.34).
@@ -22,29 +23,9 @@ constexpr double kStopTogether = 1e-6;
 }  // namespace
 
 GroupScene Simulator::groupScene(const std::vector<int>& members, const std::vector<Contact>& closed) const {
-  GroupScene scene;
-  scene.geometry = motion_.geometry;
-  scene.time = draft_.event.time;
-  scene.length = kInfinity;
-  double speed = 0;
-  for (const int body : members) {
-    const State& state = stateAfter(body);
-    const std::shared_ptr<const BodyModel> model = motion_.modelOf(body);
-    double reach = 0;
-    for (const Contact& c : closed)
-      if (c.a == body || c.b == body) reach = std::max(reach, (c.at.point - state.x).norm());
-    const Vec3 gravity = model->gravity_factor * scene_.gravity, spin = model->inverseInertiaWorld(state.q.toRotationMatrix()) * state.L;
-    scene.members.push_back({body, model, gravity});
-    scene.length = std::min(scene.length, reach);
-    scene.size = std::max(scene.size, reach + state.x.lpNorm<Eigen::Infinity>());
-    speed = std::max(speed, std::sqrt(gravity.norm() * reach + state.v.squaredNorm()) + spin.norm() * reach);
-  }
-  scene.speed = speed;
-  for (const Contact& c : closed) {
-    const bool inside = placeIn(members, c.a) >= 0 && placeIn(members, c.b) >= 0;
-    scene.with.push_back(inside ? Support() : supportOf(motion_, placeIn(members, c.a) >= 0 ? c.b : c.a, scene.time));
-  }
-  return scene;
+  std::vector<State> states;
+  for (const int body : members) states.push_back(stateAfter(body));
+  return groupOf(motion_, members, states, closed, draft_.event.time);
 }
 
 // How bodies that touch go on where they do not all rest: those that are held to each other as groups, others by themselves.

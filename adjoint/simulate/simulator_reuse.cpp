@@ -5,7 +5,14 @@
 
 namespace carom::adjoint_detail {
 
-Arc Simulator::takenArcOf(int body) const { return reused_.arcOf(body).fork(); }
+// Bodies that share a trajectory go on sharing it.
+Arc Simulator::takenArcOf(int body) {
+  const Arc& known = reused_.arcOf(body);
+  if (!known.trajectory().group()) return known.fork();
+  auto& taken = taken_groups_[known.shared().get()];
+  if (!taken) taken = known.trajectory().fork();
+  return known.on(taken);
+}
 
 // The next event of known bodies becomes the draft.
 void Simulator::takeOver() {
