@@ -47,8 +47,14 @@ std::vector<Component> componentsAtStart(const Scene& scene, OdeContacts& contac
     if (event.kind != EventKind::placed || bodies.size() < 2) continue;
     Component& component = found.emplace_back();
     component.bodies = bodies;
-    component.rests = !(&event == &motion.events.back() && motion.status == MotionStatus::unresolved_contact && motion.end == 0);
-    component.why = component.rests ? whyItRests(motion, event, bodies) : motion.message;
+    component.ends = &event == &motion.events.back() && motion.status == MotionStatus::unresolved_contact && motion.end == 0;
+    component.rests = !component.ends && std::ranges::all_of(event.participants, [&](const Participant& p) {
+      const ArcKind kind = motion.world_lines[static_cast<std::size_t>(p.body)].arcs[static_cast<std::size_t>(p.next())].kind();
+      return scene.bodies[static_cast<std::size_t>(p.body)].immovable() || kind == ArcKind::rest || kind == ArcKind::ride;
+    });
+    component.why = component.rests  ? whyItRests(motion, event, bodies)
+                    : component.ends ? motion.message
+                                     : "no forces within the cones of friction hold all of them";
   }
   return found;
 }

@@ -213,7 +213,7 @@ void printComponents(Output& out, const Scene& scene, const ScenePlan& plan) {
     const std::size_t more = names.size() > kMostBodies ? names.size() - kMostBodies : 0;
     names.resize(names.size() - more);
     out.text() << "  " << joined(names, ", ") << (more > 0 ? " and " + std::to_string(more) + " more" : "") << "\n    "
-               << (component.rests ? "rest: " : "end the motion: ") << component.why << "\n";
+               << (component.rests ? "rest: " : component.ends ? "end the motion: " : "move on each other: ") << component.why << "\n";
   }
 }
 

@@ -105,7 +105,6 @@ Motion Loaded::simulate(const Output& out) {
   const Interruption::Stoppable stoppable(out.interruption());
   SimulateOptions options;
   options.step_limit = step_limit;
-  options.groups = groups;
   options.stop = stoppable.token();
   options.progress = [&](const SimulateProgress& at) {
     progress.show(Output::brief(at.time) + " s of " + Output::brief(document.duration) + " s, " +

@@ -25,7 +25,6 @@ struct Loaded {
   Document document;
   OdeContacts contacts;
   std::size_t step_limit;
-  bool groups = false;  ///< see SimulateOptions
 
   /// As far as it comes before the limit of work or a signal.
   Motion simulate(const Output& out);

@@ -24,7 +24,7 @@ namespace {
 struct SimulateArguments {
   std::string scene;
   std::vector<double> at;
-  bool impacts = false, groups = false;
+  bool impacts = false;
   MotionArguments motion;
 };
 
@@ -89,12 +89,9 @@ Action declareSimulate(CLI::App& app) {
       ->allow_extra_args(false)
       ->type_name("T");
   app.add_flag("--impacts", options->impacts, "List all impacts; more than 50 are summarised otherwise");
-  app.add_flag("--groups", options->groups,
-               "Let up to 8 bodies move on each other in lasting contact (default: the motion ends there)");
   addMotion(app, options->motion);
   return [options](Output& out) {
     Loaded loaded(out, options->scene, options->motion);
-    loaded.groups = options->groups;
     const Motion motion = loaded.simulate(out);
     const bool stopped = motion.status == MotionStatus::stopped;
     for (const double time : options->at)

@@ -107,22 +107,6 @@ void Simulator::chooseArcs() {
   }
 }
 
-// At rest on each other, as groups, and each of the others by itself.
-void Simulator::goOnInParts() {
-  draft_.contact_state.resize(bodies_.size());
-  chooseComponents();
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (draft_.event.participants[i].stays)
-      keep(i);
-    else if (draft_.resting[i])
-      rest(i);
-    else if (draft_.grouped[i])
-      followGroup(i);
-    else
-      chooseArc(i);
-  }
-}
-
 void Simulator::fly(std::size_t participant) {
   const int body = bodies_[participant];
   draft_.arcs.push_back(builder_.flight(body, draft_.event.time, draft_.after[participant]));

@@ -32,6 +32,7 @@ Simulator::Simulator(const Scene& scene, ContactSource& contacts, double duratio
   motion_.has_events = options.record_events;
   motion_.lowest_bounce =
       options.lowest_bounce ? checkedBounce(*options.lowest_bounce) : scales_.leastHeight();
+  groups_ = groups_ && contactsLast();
   arc_.assign(n, nullptr);
   version_.assign(n, 0);
   impacts_.assign(n, 0);

@@ -30,7 +30,8 @@ struct ScenePlan {
   /// Bodies that the scene starts on each other.
   struct Component {
     std::vector<int> bodies;  ///< that contacts press together
-    bool rests = true;        ///< false: the motion ends there
+    bool rests = true;
+    bool ends = false;        ///< the motion does, there
     std::string why;          ///< in words
   };
   std::string asked;                   ///< what the tiers are chosen for: "edit" or "simulate"

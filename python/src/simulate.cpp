@@ -36,7 +36,7 @@ constexpr const char* kSimulateText =
     "message say why. Ctrl-C raises KeyboardInterrupt.\n\n"
     "impact_limit: limit on events of all kinds. step_limit: work limit in counted steps (a step takes roughly one to "
     "several microseconds). lowest_bounce: restitution is 0 for bounces lower than this, m, and the bodies stay in "
-    "contact; 0: no persistent contact. groups: up to 8 bodies may move on each other in lasting contact. refuse_overlaps: raise InputError if bodies overlap at the start. "
+    "contact; 0: no persistent contact. groups: False ends a motion where bodies would move on each other. refuse_overlaps: raise InputError if bodies overlap at the start. "
     "record_events=False: paths alone, in less than half of the memory; they cannot be differentiated. progress: called "
     "every few thousand steps; if it returns False, the motion ends with the status 'stopped'.\n\n"
     "Raises InputError for invalid input.";
@@ -59,10 +59,10 @@ void bindSimulate(nb::module_& module) {
       .def_ro("steps", &SimulateProgress::steps, "Counted so far.");
   module.def("simulate", &simulated, nb::arg("scene"), nb::arg("duration") = nb::none(), nb::kw_only(),
              nb::arg("impact_limit") = SimulateOptions().impact_limit, nb::arg("step_limit") = nb::none(),
-             nb::arg("lowest_bounce") = nb::none(), nb::arg("groups") = false, nb::arg("refuse_overlaps") = false, nb::arg("record_events") = true,
+             nb::arg("lowest_bounce") = nb::none(), nb::arg("groups") = true, nb::arg("refuse_overlaps") = false, nb::arg("record_events") = true,
              nb::arg("progress") = nb::none(),
              nb::sig("def simulate(scene: Scene, duration: float | None = None, *, impact_limit: int = 20000, "
-                     "step_limit: int | None = None, lowest_bounce: float | None = None, groups: bool = False, refuse_overlaps: bool = False, "
+                     "step_limit: int | None = None, lowest_bounce: float | None = None, groups: bool = True, refuse_overlaps: bool = False, "
                      "record_events: bool = True, progress: collections.abc.Callable[[SimulateProgress], bool | None] | "
                      "None = None) -> Motion"),
              kSimulateText);

@@ -137,9 +137,17 @@ TEST(SessionParts, WhatStaysIsSimulatedAnew) {
 TEST(SessionParts, AMotionThatEndsEarlySaysSo) {
   Scene scene = rowOfBalls();
   scene.materials[0].elasticity = 0;
-  Body& support = scene.bodies[1];  // "hit" rolls on it, which is not modelled, as it can move
-  scene.bodies[2].velocity.y() = 0.05;
-  support.shape = Box{Vec3(0.2, 0.2, 0.2)}, support.position = {0.6, 0, 0.1}, support.velocity.setZero();
+  // a belt carries both to its end, where they would move on each other
+  Body belt = test::fixedBody(test::makeBox("belt", {2, 2, 0.2}, {0, 50, 5}));
+  belt.surface_velocity = {0.5, 0, 0};
+  belt.material = scene.bodies[1].material;
+  scene.bodies.push_back(belt);
+  double height = 5.2;
+  for (const std::size_t b : {1u, 2u}) {
+    scene.bodies[b].shape = Box{Vec3(0.2, 0.2, 0.2)};
+    scene.bodies[b].position = {0.4, 50, height}, scene.bodies[b].velocity = {0.5, 0, 0}, scene.bodies[b].angular_velocity.setZero();
+    height += 0.2;
+  }
   OdeContacts contacts(scene);
   EditSession session(scene, contacts, 3.0, withoutClock());
   session.setControls({velocity("hit")});

@@ -24,6 +24,20 @@ Scene inOrder(Scene scene, bool reverse) {
   return scene;
 }
 
+double energyOf(const Motion& m, double t) {
+  double energy = 0;
+  for (std::size_t b = 0; b < m.world_lines.size(); ++b) {
+    const BodyModel& model = (*m.models)[b];
+    if (!model.moving || model.kinematic) continue;
+    const BodyState s = m.stateAt(static_cast<int>(b), t);
+    const Mat3 R = s.orientation.toRotationMatrix();
+    energy += 0.5 * model.mass * s.velocity.squaredNorm() - model.mass * m.scene->gravity.dot(s.position);
+    const Vec3 w = R.transpose() * s.angular_velocity;
+    energy += 0.5 * w.dot(model.inertia.cwiseProduct(w));
+  }
+  return energy;
+}
+
 Scene sceneOf(double friction, std::vector<Body> bodies, const Vec3& gravity) {
   Scene scene = makeScene(gravity, 0, friction, std::move(bodies));
   scene.materials[0].friction = friction;

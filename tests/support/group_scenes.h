@@ -15,6 +15,8 @@ inline const Vec3 kDown(0, 0, -kG);
 
 Motion playGroups(const Scene& scene, double duration);
 Scene inOrder(Scene scene, bool reverse);
+/// Of all that moves, in the scene's gravity, J.
+double energyOf(const Motion& m, double t);
 
 /// Materials "rough" and "ice": ice slips on everything.
 Scene sceneOf(double friction, std::vector<Body> bodies, const Vec3& gravity = kDown);
