@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "adjoint/constrained/constrained_path.hpp"
+#include "adjoint/group/group_path.hpp"
 #include "adjoint/contact/contact_path.hpp"
 #include "adjoint/motion/body_geometry.h"
 
@@ -24,25 +25,47 @@ double endOf(const Motion& motion, const WorldLine& line, std::size_t k) {
   return k < line.events.size() ? motion.events[static_cast<std::size_t>(line.events[k])].time : motion.end;
 }
 
-// Energy that comes or goes, but for what supports that move do, as a share of what there is; of a body that slides, energy that
-// comes.
-double driftOf(const Arc& arc, const Vec3& of_scene, double end, int samples) {
-  const BodyModel& model = arc.model();
-  const Vec3 gravity = model.gravity_factor * of_scene;
-  const bool slides = arc.kind() == ArcKind::slide;
-  const auto potential = [&](const State& s) { return -model.mass * gravity.dot(s.x); };
-  const double kinetic = kineticEnergy(model, arc.startState()), height = potential(arc.startState());
-  const ConstrainedPath* constrained = arc.trajectory().constrained();
+// The largest energy that comes or goes at samples + 1 times, as a share of what there is; where it `slides`, that comes.
+// energy_at(t): {kinetic, potential less the work of supports}.
+template <class EnergyAt>
+double driftBy(const EnergyAt& energy_at, double start, double end, int samples, bool slides) {
+  const auto [kinetic, height] = energy_at(start);
   double drift = 0, most = kinetic, work = 0;
   for (int i = 1; i <= samples + 1; ++i) {
-    const double t = i > samples ? end : arc.start() + (end - arc.start()) * i / (samples + 1);
-    const State s = arc.stateAt(t);
-    const double now = kineticEnergy(model, s), gained = potential(s) - height - (constrained ? constrained->supportWork(t) : 0);
+    const auto [now, potential] = energy_at(i > samples ? end : start + (end - start) * i / (samples + 1));
+    const double gained = potential - height;
     drift = std::max(drift, slides ? now - kinetic + gained : std::abs(now - kinetic + gained));
     most = std::max(most, now);
     work = std::max(work, std::abs(gained));
   }
   return most + work > 0 ? drift / (most + work) : 0;
+}
+
+double driftOf(const Arc& arc, const Vec3& of_scene, double end, int samples) {
+  const BodyModel& model = arc.model();
+  const Vec3 gravity = model.gravity_factor * of_scene;
+  const ConstrainedPath* constrained = arc.trajectory().constrained();
+  const auto energy_at = [&](double t) {
+    const State s = t > arc.start() ? arc.stateAt(t) : arc.startState();
+    return std::pair(kineticEnergy(model, s), -model.mass * gravity.dot(s.x) - (constrained && t > arc.start() ? constrained->supportWork(t) : 0));
+  };
+  return driftBy(energy_at, arc.start(), end, samples, arc.kind() == ArcKind::slide);
+}
+
+// Of all bodies that move on each other; none is told where supports do work.
+double driftOf(const GroupPath& path, double end, int samples) {
+  if (std::ranges::any_of(path.scene().with, &Support::drives)) return 0;
+  const auto energy_at = [&](double t) {
+    std::pair<double, double> sum{0, 0};
+    for (std::size_t m = 0; m < path.scene().members.size(); ++m) {
+      const GroupMember& of = path.scene().members[m];
+      const State s = path.stateAt(m, t);
+      sum.first += kineticEnergy(*of.model, s), sum.second -= of.model->mass * of.gravity.dot(s.x);
+    }
+    return sum;
+  };
+  const bool slides = std::ranges::any_of(path.contacts(), &GroupContact::turns);
+  return driftBy(energy_at, path.start(), end, samples, slides);
 }
 
 /// Fractions of a flight at which overlaps are looked for: its middle, and ever nearer to both ends, where bodies are
@@ -99,8 +122,10 @@ double energyDrift(const Motion& motion, int samples) {
   for (const WorldLine& line : motion.world_lines) {
     for (std::size_t k = 0; k < line.arcs.size(); ++k) {
       const double end = endOf(motion, line, k);
-      if (line.arcs[k].moving() && end > line.arcs[k].start())
-        worst = std::max(worst, driftOf(line.arcs[k], motion.scene->gravity, end, samples));
+      const Arc& arc = line.arcs[k];
+      if (!arc.moving() || !(end > arc.start())) continue;
+      if (const GroupPath* group = arc.trajectory().group()) worst = std::max(worst, arc.slot() == 0 ? driftOf(*group, end, samples) : 0);
+      else worst = std::max(worst, driftOf(arc, motion.scene->gravity, end, samples));
     }
   }
   return worst;
