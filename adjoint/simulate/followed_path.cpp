@@ -64,8 +64,14 @@ Arc FollowedPath::follow(const Motion& motion, const Motion& was, const Particip
   const ConstrainedPath& path = *line.arcs[next].trajectory().constrained();
   PathArc made = constrainedAlong(motion, path, ConstrainedEnds::all, after, from, time);
   contacts = std::move(made.held), transition = made.transition, like = &path;
-  ends = next < line.events.size() && was.events[asIndex(line.events[next])].kind == EventKind::transition;
+  ends = endsByItself(was, p);
   return std::move(made.arc);
+}
+
+bool endsByItself(const Motion& motion, const Participant& p) {
+  const std::vector<int>& events = motion.world_lines[asIndex(p.body)].events;
+  const std::size_t next = asIndex(p.next());
+  return next < events.size() && motion.events[asIndex(events[next])].kind == EventKind::transition;
 }
 
 void extendAlong(const Motion& motion, const FollowedPath& held, Arc& arc, double time) {

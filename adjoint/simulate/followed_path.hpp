@@ -28,6 +28,9 @@ struct FollowedPath {
              const std::vector<Contact>& from, double time);
 };
 
+/// Whether the arc on which a participant goes on after an event ends by itself, not by an impact.
+bool endsByItself(const Motion& motion, const Participant& p);
+
 /// Takes an arc up to a time, or to where `like` ends. Any guard that falls to 0 before ends it at first; then it is made
 /// anew without it: what is followed goes on there.
 void extendAlong(const Motion& motion, const FollowedPath& held, Arc& arc, double time);

@@ -236,16 +236,10 @@ class Follower {
     std::vector<std::optional<Arc>> groups = groupsAlong(like_, was, motion_, after, event_.time);
     for (std::size_t i = 0; i < after.size(); ++i) {
       const Participant& p = was.participants[i];
-      if (groups[i]) held_[index(p.body)] = {.ends = endsByItself(p), .group = groupAfter(like_, p)};
+      if (groups[i]) held_[index(p.body)] = {.ends = endsByItself(like_, p), .group = groupAfter(like_, p)};
       arcs.push_back(groups[i] ? std::move(*groups[i]) : p.stays ? arcOf(p.body) : arcAfter(was, i, after[i]));
     }
     builder_.add(std::move(event_), std::move(arcs));
-  }
-
-  // Whether the arc of what is followed ends by itself after an event.
-  bool endsByItself(const Participant& p) const {
-    const std::vector<int>& events = like_.world_lines[index(p.body)].events;
-    return index(p.next()) < events.size() && like_.events[index(events[index(p.next())])].kind == EventKind::transition;
   }
 
   bool isMoved(int body) const { return !scene_.bodies[index(body)].immovable(); }

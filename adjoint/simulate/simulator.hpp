@@ -321,7 +321,7 @@ class Simulator {
   bool groups_, refuse_overlaps_;
   std::map<const Trajectory*, std::shared_ptr<Trajectory>> taken_groups_;  // of what was taken over
   WorkCount work_;
-  bool work_ended_ = false;
+  bool work_ended_ = false, any_lasted_ = false;  // a body has been in lasting contact
   double now_ = 0;     // everything before it is known
   long searches_ = 0;  // since the last impact
   MotionBuilder builder_;
@@ -334,7 +334,6 @@ class Simulator {
   std::vector<NextImpact> next_impacts_;
   std::vector<BodyContactState> contact_states_;
   double lowest_speed_ = 0, counted_speed_ = 0;  // see setSpeedsOfContact
-  bool any_lasted_ = false;  // a body has been in lasting contact
   EventQueue queue_;
   ReusedBodies reused_;
   std::optional<int> reuse_invalidated_by_;
