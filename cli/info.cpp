@@ -67,7 +67,7 @@ std::vector<ScenePlan::Lasting> lastingOf(const Scene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     if (body.immovable()) continue;
-    lasting[i] = {{ArcKind::rest, ArcKind::slide, ArcKind::roll, ArcKind::pivot}, "moves while another body that can move presses on it"};
+    lasting[i] = {{ArcKind::rest, ArcKind::slide, ArcKind::roll, ArcKind::pivot}, "moves with more than 7 others at once, or at more than 36 contacts"};
     if (carries) lasting[i].kinds.push_back(ArcKind::ride);
   }
   return lasting;
@@ -200,7 +200,7 @@ void printLasting(Output& out, const Scene& scene, const ScenePlan& plan) {
     all.add(scene.bodies[i].name, "    " + joined(kinds, ", ") + "; the motion ends where it " + lasting.ends + "\n");
   }
   if (all.empty()) return;
-  out.text() << "\nPersistent contact with fixed bodies, and rest on others that rest (section 11 of the equations):\n";
+  out.text() << "\nPersistent contact with fixed bodies and with others (section 11 of the equations):\n";
   all.print(out);
 }
 

@@ -181,7 +181,7 @@ TEST(LastingContact, InfoSaysWhatABodyCanDo) {
   const auto kinds = [&](int body) { return answer["bodies"][static_cast<std::size_t>(body)]["lasting_contact"]; };
   for (int body : {0, 2}) EXPECT_EQ(kinds(body), (json{"rest", "slide", "roll", "pivot"}));
   EXPECT_FALSE(answer["bodies"][4].contains("lasting_contact"));
-  EXPECT_EQ(answer["bodies"][2]["lasting_contact_ends"], "moves while another body that can move presses on it");
+  EXPECT_EQ(answer["bodies"][2]["lasting_contact_ends"], "moves with more than 7 others at once, or at more than 36 contacts");
   const CommandRun run = runCommand({"info", everyPath()});
   EXPECT_NE(run.out.find("  drop, bowl, block, still\n    rest, slide, roll, pivot; the motion ends where it moves "),
             std::string::npos)
