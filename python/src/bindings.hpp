@@ -15,6 +15,27 @@
 
 #include <string>
 
+#include "adjoint/base/times.h"
+
+namespace nanobind::detail {
+
+/// A number of seconds is one of Python's.
+template <>
+struct type_caster<carom::Seconds> {
+  NB_TYPE_CASTER(carom::Seconds, const_name("float"))
+  bool from_python(handle source, uint8_t flags, cleanup_list* cleanup) noexcept {
+    make_caster<double> number;
+    if (!number.from_python(source, flags, cleanup)) return false;
+    value = number.value;
+    return true;
+  }
+  static handle from_cpp(carom::Seconds t, rv_policy policy, cleanup_list* cleanup) noexcept {
+    return make_caster<double>::from_cpp(static_cast<double>(t), policy, cleanup);
+  }
+};
+
+}  // namespace nanobind::detail
+
 namespace carom::python {
 
 namespace nb = nanobind;
