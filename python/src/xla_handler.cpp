@@ -35,12 +35,18 @@ ffi::ErrorOr<std::unique_ptr<RowsInProgram>> instantiate(std::int64_t number, st
   return std::make_unique<RowsInProgram>(RowsInProgram{std::move(found)});
 }
 
-/// Ctrl-C is raised again once XLA has returned, which knows no exceptions of Python.
 std::string messageOf(const nb::python_error& error) {
   const GilHeld held;
-  std::string message = pythonText(error.type().attr("__name__")) + ": " + pythonText(error.value());
-  if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();  // the last: str() looks for it
-  return message;
+  return pythonText(error.type().attr("__name__")) + ": " + pythonText(error.value());
+}
+
+/// Ctrl-C is raised again as soon as XLA, which knows no exceptions of Python, has returned: an error of XLA's would be raised before it.
+/// So it is given no error, and values that nobody gets to see.
+bool isInterrupt(const nb::python_error& error) {
+  const GilHeld held;
+  if (!error.matches(PyExc_KeyboardInterrupt)) return false;
+  PyErr_SetInterrupt();
+  return true;
 }
 
 std::vector<double> doublesOf(const ffi::AnyBuffer& x) {
@@ -85,7 +91,8 @@ ffi::Error execute(RowsInProgram* program, ffi::AnyBuffer x, ffi::Result<ffi::An
     else
       write(rows, n, jacobian != 0, static_cast<double*>(result->untyped_data()));
   } catch (const nb::python_error& error) {
-    return ffi::Error::Internal(messageOf(error));
+    if (!isInterrupt(error)) return ffi::Error::Internal(messageOf(error));
+    std::memset(result->untyped_data(), 0xff, result->size_bytes());  // not numbers
   } catch (const std::exception& error) {
     return ffi::Error::InvalidArgument(error.what());
   }
