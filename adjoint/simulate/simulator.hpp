@@ -205,24 +205,28 @@ class Simulator {
   std::vector<std::pair<std::vector<int>, std::vector<Contact>>> placedParts(const std::vector<PlacedContact>& placed);
 
   // simulator_group.cpp: bodies that move on each other
-  GroupScene groupScene(const std::vector<int>& members, const std::vector<Contact>& closed) const;
+  std::vector<State> statesAfter(const std::vector<int>& bodies) const;
   void joinGroups(const std::vector<int>& touching, const std::vector<Contact>& closed);
   void beginGroup(const std::vector<int>& members, const std::vector<Contact>& closed, const GroupModes& modes);
   void followGroup(std::size_t participant);
   void refreshGroup(int body);
   void resolveGroupTransition(int body);
 
-  // simulator_contact.cpp: persistent contact
-  bool contactsLast() const { return motion_.lowest_bounce > 0; }
+  // simulator_transition.cpp: paths in contact that come to their end
   void resolveTransition(int body);
   void resolveLanding(const std::vector<Contact>& on);
+  Contact& addHeld(const auto& h, bool lasts);
+  void addBeside(const BodyContactState& from);
+  void goOnOtherwise(const std::vector<int>& bodies);
+
+  // simulator_contact.cpp: persistent contact
+  bool contactsLast() const { return motion_.lowest_bounce > 0; }
   std::vector<Contact> contactsBeyond(const BodyContactState& from, int body, double time);
   bool hasLeft(const Contact& c, double time, double room);
   std::vector<Contact> contactsAt(const BodyContactState& from, double time, double when, double reach);
   std::vector<Contact> closedContacts(int body, bool& ends);
   bool strikes(const Contact& contact);
   double strikingSpeed(const Contact& contact);
-  void addBeside(const BodyContactState& from);
   std::vector<std::pair<int, int>> persistentPairs(const BodyContactState& from);
 
   // simulator_ground.cpp: what stands still is one ground
@@ -241,11 +245,7 @@ class Simulator {
   bool changesTooOften(int body) const;
   bool presses(const Contact& contact) const;
   void endBeyond(const Contact& contact, const std::string& why);
-  const BodyContactState& contactStateOf(int body) const {
-    const int i = in_draft_[index(body)];
-    if (i < 0) return contact_states_[index(body)];
-    return draft_.contact_state.empty() ? kInFlight : draft_.contact_state[index(i)];
-  }
+  const BodyContactState& contactStateOf(int body) const;
   std::optional<PredictedImpact> besideConstrained(int a, int b, double from, double until);
 
   // simulator_pressing.cpp: what ends a motion though no contact is new

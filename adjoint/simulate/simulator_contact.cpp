@@ -31,6 +31,12 @@ constexpr std::size_t kMostChanges = 8;
 
 const BodyContactState Simulator::kInFlight = {};
 
+const BodyContactState& Simulator::contactStateOf(int body) const {
+  const int i = in_draft_[index(body)];
+  if (i < 0) return contact_states_[index(body)];
+  return draft_.contact_state.empty() ? kInFlight : draft_.contact_state[index(i)];
+}
+
 // The first impact of a pair besides the contacts that hold them to each other.
 std::optional<PredictedImpact> Simulator::besideConstrained(int a, int b, double from, double until) {
   std::vector<FeaturePair> held;
@@ -104,6 +110,22 @@ void Simulator::chooseArcs() {
       return std::ranges::any_of(contact_state.held, [&](const Contact& h) { return isSameContact(c, h); });
     });
     if (c.lasts && !c.held && event.kind == EventKind::impact) event.kind = EventKind::capture;
+  }
+}
+
+// At rest on each other, as groups, and each of the others by itself.
+void Simulator::goOnInParts() {
+  draft_.contact_state.resize(bodies_.size());
+  chooseComponents();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (draft_.event.participants[i].stays)
+      keep(i);
+    else if (draft_.resting[i])
+      rest(i);
+    else if (draft_.grouped[i])
+      followGroup(i);
+    else
+      chooseArc(i);
   }
 }
 
@@ -272,74 +294,6 @@ bool Simulator::strikes(const Contact& c) { return c.approach < -strikingSpeed(c
 double Simulator::strikingSpeed(const Contact& c) {
   return std::max(kSlowest * arcOf(isMoved(c.a) ? c.a : c.b).velocityAt(draft_.event.time).norm(),
                   std::sqrt(2 * motion_.lowest_bounce * scene_.gravity.norm()));
-}
-
-// The body of a path whose time has come goes on otherwise, from the state that it has.
-void Simulator::resolveTransition(int body) {
-  if (arcOf(body).trajectory().group()) return resolveGroupTransition(body);
-  const BodyContactState from = contact_states_[index(body)];
-  Event& event = draft_.event;
-  beginDraft(from.transition);
-  event.kind = EventKind::transition;
-  snapshot(body, event.time);
-  if (from.why.cause == TransitionCause::leaves && from.why.limit < 0) return resolveFlat(from, body);
-  event.cause = from.why.cause;
-  event.border = from.why.limit;
-  const ConstrainedPath* path = arcOf(body).trajectory().constrained();
-  draft_.past_end = path ? path->beyondEnd() : std::nullopt;
-  const auto add = [&](const Contact& h, bool lasts) {
-    Contact& c = event.contacts.emplace_back(makeContact(event.time, h.a, h.b, h.features));
-    c.counted = false;
-    c.held = true;
-    c.lasts = lasts;
-  };
-  if (event.cause == TransitionCause::leaves) {
-    std::vector<Contact> beyond = contactsBeyond(from, body, event.time);
-    std::erase_if(beyond, [&](const Contact& c) { return c.approach > strikingSpeed(c); });  // it parts from there
-    if (std::ranges::any_of(beyond, [&](const Contact& c) { return strikes(c); })) return resolveLanding(beyond);
-    add(from.held[index(from.why.contact)], false);
-    for (const Contact& c : beyond)
-      if (!inDraft(c.a, c.b, c.features)) add(c, true);
-    dropDoubles(1);
-  } else {
-    const int first = from.why.contact;  // none of a body that slides without turning
-    if (first >= 0) add(from.held[index(first)], event.cause != TransitionCause::lifts);
-    for (std::size_t k = 0; k < from.held.size(); ++k)
-      if (static_cast<int>(k) != first) add(from.held[k], true);
-    if (arcOf(body).isIntegrated()) addBeside(from);
-  }
-  bodies_ = {body};
-  event.participants.push_back({body, static_cast<int>(motion_.world_lines[index(body)].arcs.size()) - 1, 0,
-                                snapshots_[0].state});
-  draft_.after = {snapshots_[0].state};
-  addCarriers();
-  chooseArcs();
-  std::erase_if(event.contacts, [](const Contact& c) { return !c.held && !c.lasts; });
-  predictDraft();
-}
-
-// What touches beside the contacts that hold a body, as corners of a face that lies flat without pressing, may come to
-// hold it.
-void Simulator::addBeside(const BodyContactState& from) {
-  std::vector<Contact>& contacts = draft_.event.contacts;
-  for (Contact& c : contactsAt(from, draft_.event.time, draft_.event.time, 0)) {
-    if (inDraft(c.a, c.b, c.features) || c.approach > scaleOf(c.a, c.b, draft_.event.time).neither() || strikes(c)) continue;
-    c.counted = false;
-    c.lasts = true;
-    contacts.push_back(std::move(c));
-  }
-  dropDoubles(0, true);
-}
-
-// What a body rolls over to may come down on it instead: an impact like others.
-void Simulator::resolveLanding(const std::vector<Contact>& on) {
-  beginDraft(draft_.event.time);
-  for (const Contact& c : on)
-    if (strikes(c)) draft_.event.contacts.push_back(c);
-  do {
-    solveDraft();
-    predictDraft();
-  } while (joinInstant());
 }
 
 }  // namespace carom::adjoint_detail

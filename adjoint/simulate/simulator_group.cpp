@@ -22,10 +22,10 @@ constexpr double kStopTogether = 1e-6;
 
 }  // namespace
 
-GroupScene Simulator::groupScene(const std::vector<int>& members, const std::vector<Contact>& closed) const {
+std::vector<State> Simulator::statesAfter(const std::vector<int>& bodies) const {
   std::vector<State> states;
-  for (const int body : members) states.push_back(stateAfter(body));
-  return groupOf(motion_, members, states, closed, draft_.event.time);
+  for (const int body : bodies) states.push_back(stateAfter(body));
+  return states;
 }
 
 // How bodies that touch go on where they do not all rest: those that are held to each other as groups, others by themselves.
@@ -39,9 +39,8 @@ void Simulator::joinGroups(const std::vector<int>& touching, const std::vector<C
   if (touching.size() > kMostMembers || closed.size() > kMostContacts)
     return failed(textOf(3, "they move on each other with ", touching.size(), " bodies and ", closed.size(), " contacts, more than ", kMostMembers, " or ",
                          kMostContacts));
-  const GroupScene scene = groupScene(touching, closed);
-  std::vector<State> states;
-  for (const int body : touching) states.push_back(stateAfter(body));
+  const std::vector<State> states = statesAfter(touching);
+  const GroupScene scene = groupOf(motion_, touching, states, closed, draft_.event.time);
   std::vector<GroupContact> candidates;
   for (const Contact& c : closed) {
     GroupContact& of = candidates.emplace_back();
@@ -82,9 +81,8 @@ void Simulator::beginGroup(const std::vector<int>& members, const std::vector<Co
     contacts.push_back(modes.contacts[i]);
     contacts.back().member_a = placeIn(members, c.a), contacts.back().member_b = placeIn(members, c.b);
   }
-  GroupScene scene = groupScene(members, own);
-  std::vector<State> states;
-  for (const int body : members) states.push_back(stateAfter(body));
+  std::vector<State> states = statesAfter(members);
+  GroupScene scene = groupOf(motion_, members, states, own, draft_.event.time);
   work_.step(kConstrainedStep * std::max<std::size_t>(1, own.size() * own.size() / 4));
   std::shared_ptr<GroupPath> path;
   try {
@@ -139,46 +137,27 @@ void Simulator::resolveGroupTransition(int body) {
   event.border = end.limit;
   std::vector<int> members;
   for (const GroupMember& m : path.scene().members) members.push_back(m.body);
-  const auto add = [&](const GroupContact& h, bool lasts) {
-    Contact& c = event.contacts.emplace_back(makeContact(event.time, h.a, h.b, h.features));
-    c.counted = false;
-    c.held = true;
-    c.lasts = lasts;
-  };
   const GroupContact& first = path.contacts()[index(end.contact)];
   if (event.cause == TransitionCause::leaves) {
     const int of = isMoved(first.a) ? first.a : first.b;
     std::vector<Contact> beyond = contactsBeyond(contact_states_[index(of)], of, event.time);
     std::erase_if(beyond, [&](const Contact& c) { return c.approach > strikingSpeed(c) || c.a != first.a || c.b != first.b; });
     if (std::ranges::any_of(beyond, [&](const Contact& c) { return strikes(c); })) return resolveLanding(beyond);
-    add(first, false);
+    addHeld(first, false);
     for (const Contact& c : beyond)
       if (!inDraft(c.a, c.b, c.features)) {
         const bool known = std::ranges::any_of(path.contacts(), [&](const GroupContact& h) { return h.a == c.a && h.b == c.b && h.features == c.features; });
-        GroupContact h;
-        h.a = c.a, h.b = c.b, h.features = c.features;
-        add(h, true);
-        event.contacts.back().held = known;
+        addHeld(c, true).held = known;
       }
   } else {
-    add(first, event.cause != TransitionCause::lifts);
+    addHeld(first, event.cause != TransitionCause::lifts);
   }
   for (const GroupContact& h : path.contacts())
-    if (!inDraft(h.a, h.b, h.features)) add(h, true);
+    if (!inDraft(h.a, h.b, h.features)) addHeld(h, true);
   for (const int member : members) addBeside(contact_states_[index(member)]);
-  bodies_ = members;
-  event.participants.clear();
-  draft_.after.clear();
-  for (const int member : members) {
-    const State& state = snapshots_[snapshot(member, event.time)].state;
-    event.participants.push_back({member, static_cast<int>(motion_.world_lines[index(member)].arcs.size()) - 1, 0, state});
-    draft_.after.push_back(state);
-  }
   draft_.group_beyond.reset();
   if (auto later = path.beyondEnd()) draft_.group_beyond = {members, std::move(later->first), later->second};
-  addCarriers();
-  chooseArcs();
-  std::erase_if(event.contacts, [](const Contact& c) { return !c.held && !c.lasts; });
+  goOnOtherwise(members);
   predictDraft();
 }
 

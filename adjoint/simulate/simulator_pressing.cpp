@@ -20,22 +20,6 @@ constexpr double kDiffers = 1e-6;
 
 }  // namespace
 
-// At rest on each other, as groups, and each of the others by itself.
-void Simulator::goOnInParts() {
-  draft_.contact_state.resize(bodies_.size());
-  chooseComponents();
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (draft_.event.participants[i].stays)
-      keep(i);
-    else if (draft_.resting[i])
-      rest(i);
-    else if (draft_.grouped[i])
-      followGroup(i);
-    else
-      chooseArc(i);
-  }
-}
-
 // What friction slows down may press on what touches it, which forces along the normals do not tell: contacts of the draft that
 // close although none holds their bodies.
 std::vector<const Contact*> Simulator::closingContacts() {

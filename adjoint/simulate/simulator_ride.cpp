@@ -93,36 +93,20 @@ void Simulator::leaveCarrier(const Ride& ride, const std::vector<int>& part, con
   event.cause = TransitionCause::leaves;
   event.border = ride.limit;
   draft_.woken = part;
-  const auto add = [&](const Contact& h, bool lasts) {
-    Contact& c = event.contacts.emplace_back(makeContact(event.time, h.a, h.b, h.features));
-    c.counted = false;
-    c.held = true;
-    c.lasts = lasts;
-  };
-  add(*ride.leaving, false);
+  addHeld(*ride.leaving, false);
   for (const Contact& h : held)
-    if (joinsMoved(h)) add(h, true);
+    if (joinsMoved(h)) addHeld(h, true);
   for (const int member : part) {
     BodyContactState on_carrier = contact_states_[index(member)];
     std::erase_if(on_carrier.held, [&](const Contact& h) { return joinsMoved(h); });
     if (on_carrier.held.empty()) continue;
     for (const Contact& c : contactsBeyond(on_carrier, member, event.time)) {
       if (joinsMoved(c) || c.approach > strikingSpeed(c) || inDraft(c.a, c.b, c.features)) continue;
-      add(c, true);
-      event.contacts.back().held = std::ranges::any_of(held, [&](const Contact& h) { return isSameContact(h, c); });
+      addHeld(c, true).held = std::ranges::any_of(held, [&](const Contact& h) { return isSameContact(h, c); });
     }
   }
   dropDoubles(1);
-  bodies_ = part;
-  draft_.after.clear();
-  for (const int member : part) {
-    const State& state = snapshots_[snapshot(member, event.time)].state;
-    event.participants.push_back({member, static_cast<int>(motion_.world_lines[index(member)].arcs.size()) - 1, 0, state});
-    draft_.after.push_back(state);
-  }
-  addCarriers();
-  chooseArcs();
-  std::erase_if(event.contacts, [](const Contact& c) { return !c.held && !c.lasts; });
+  goOnOtherwise(part);
   if (draft_.beyond.empty()) predictDraft();
 }
 
