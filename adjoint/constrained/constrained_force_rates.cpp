@@ -12,11 +12,6 @@ struct Answer {
   V3<Number> at(const V3<Number>& r) const { return acceleration + spin_rate.cross(r); }
 };
 
-template <class Rates>
-void takeRates(Rates& rates, Eigen::Index row, const ConstrainedLanes::Number& x) {
-  for (std::size_t i = 0; i < x.rate.size(); ++i) rates(row, static_cast<Eigen::Index>(i)) = x.rate[i];
-}
-
 void addRates(V3<ConstrainedLanes::Number>& x, const Vec3& rate, std::size_t lane) {
   for (int i = 0; i < 3; ++i) x[i].rate[lane] += rate[i];
 }

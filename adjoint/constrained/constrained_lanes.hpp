@@ -16,4 +16,10 @@ struct ConstrainedLanes {
   std::vector<Number> gap;
 };
 
+/// Puts the rates of a number into a row.
+template <class Rates>
+void takeRates(Rates& rates, Eigen::Index row, const ConstrainedLanes::Number& x) {
+  for (std::size_t i = 0; i < x.rate.size(); ++i) rates(row, static_cast<Eigen::Index>(i)) = x.rate[i];
+}
+
 }  // namespace carom::adjoint_detail

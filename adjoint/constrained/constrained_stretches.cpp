@@ -41,15 +41,7 @@ ConstrainedStretch stretchFrom(const ConstrainedPath& path, const SlipEnds& end,
 std::vector<ConstrainedStretch> stretchesUntil(const ConstrainedPath& path, double t) {
   SlipEnds end;
   if (path.contactThatStops()) end = path.instantAt(path.ending()->time);
-  std::vector<ConstrainedStretch> out;
-  for (const ConstrainedStep& step : path.allSteps()) {
-    if (!(step.length > 0) || !(step.start < t)) break;
-    const bool last = &step == &path.allSteps().back();
-    const double until = last ? t : std::min(t, step.start + step.length);
-    for (double from = step.start; from < until; from = out.back().until)
-      out.push_back(stretchFrom(path, end, step, from, until));
-  }
-  return out;
+  return stretchesOf<ConstrainedStretch>(path.allSteps(), t, [&](const ConstrainedStep& step, double from, double until) { return stretchFrom(path, end, step, from, until); });
 }
 
 Eigen::MatrixXd slopeRates(const ConstrainedPath& path, const ConstrainedInputs& inputs, const State& state, double t,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
 #include "adjoint/base/types.h"
 
 namespace carom::adjoint_detail {
@@ -35,6 +38,19 @@ inline SlipStretch slipStretch(const Vec3& slip, const Vec3& rate, const StopOfS
   const bool turns = rate.cross(slip).norm() > kStillTurns * rate.norm() * speed && !straight_to_end;
   out.straight = !(speed > (turns ? kNoDirectionLeft : kNoSlip) * unit);
   if (!out.straight) out.reach = kReachOfStretch * speed / rate.norm();
+  return out;
+}
+
+/// The stretches of the steps of a path from its start to a time, in order; `stretch_from(step, from, until)` gives one that may be shorter.
+template <class Stretch, class Steps, class StretchFrom>
+std::vector<Stretch> stretchesOf(const Steps& steps, double t, const StretchFrom& stretch_from) {
+  std::vector<Stretch> out;
+  for (const auto& step : steps) {
+    if (!(step.length > 0) || !(step.start < t)) break;
+    const bool last = &step == &steps.back();
+    const double until = last ? t : std::min(t, step.start + step.length);
+    for (double from = step.start; from < until; from = out.back().until) out.push_back(stretch_from(step, from, until));
+  }
   return out;
 }
 

@@ -6,11 +6,6 @@ namespace {
 
 using Number = GroupLanes::Number;
 
-template <class Rates>
-void takeRates(Rates& rates, Eigen::Index row, const Number& x) {
-  for (std::size_t i = 0; i < x.rate.size(); ++i) rates(row, static_cast<Eigen::Index>(i)) = x.rate[i];
-}
-
 }  // namespace
 
 GroupForceRates::GroupForceRates(const std::vector<GroupContact>& contacts, const GroupInstant& now, bool redundant) : contacts_(contacts) {

@@ -3,6 +3,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/group/group_shares.hpp"
+#include "adjoint/group/group_start.hpp"
 
 namespace carom::adjoint_detail {
 namespace {
@@ -17,20 +18,6 @@ constexpr double kStationary = 1e-7;
 
 }  // namespace
 
-void GroupLimit::place(const GroupInstant& now) {
-  wrenches_.setZero(6 * rowAt(now.members.size()), 3 * rowAt(stick_.size()));
-  for (std::size_t i = 0; i < stick_.size(); ++i) {
-    const GroupContact& c = contacts_[stick_[i]];
-    const auto put = [&](int member, double sign) {
-      if (member < 0) return;
-      const Vec3 arm = now.contacts[stick_[i]].point - now.members[static_cast<std::size_t>(member)].x;
-      wrenches_.block<3, 3>(6 * member, 3 * rowAt(i)) += sign * Mat3::Identity();
-      wrenches_.block<3, 3>(6 * member + 3, 3 * rowAt(i)) += sign * Mat3(skew(arm));
-    };
-    put(c.member_a, 1), put(c.member_b, -1);
-  }
-}
-
 GroupLimit::GroupLimit(const GroupScene& scene, const std::vector<GroupContact>& contacts, const GroupInstant& now, const GroupForces& forces)
     : contacts_(contacts) {
   const SharedForces best = sharedForces(scene, contacts, now, forces);
@@ -39,7 +26,7 @@ GroupLimit::GroupLimit(const GroupScene& scene, const std::vector<GroupContact>&
     share_.push_back(other ? Vec3(best.force[k] - forces.force(k)) : Vec3::Zero());
     if (contacts[k].mode == ContactMode::sticks) stick_.push_back(k);
   }
-  place(now);
+  wrenches_ = velocityRows(now, contacts, stick_).transpose();
   const Eigen::MatrixXd others = FullLu(wrenches_, kStationary).kernel();  // shares without effect
   std::vector<Eigen::VectorXd> slopes;
   for (std::size_t i = 0; i < stick_.size(); ++i) {

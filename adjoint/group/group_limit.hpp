@@ -24,7 +24,6 @@ class GroupLimit {
     double weight;
     bool lifts;  // no force at all: n.f in place of the room
   };
-  void place(const GroupInstant& now);
 
   const std::vector<GroupContact>& contacts_;
   std::vector<Weighted> weighted_;

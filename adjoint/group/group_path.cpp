@@ -6,6 +6,7 @@
 
 #include "adjoint/base/errors.h"
 #include "adjoint/base/refuse.hpp"
+#include "adjoint/constrained/constrained_inputs.hpp"
 #include "adjoint/constrained/slip_ahead.hpp"
 #include "adjoint/constrained/slip_stop.hpp"
 #include "adjoint/group/group_guards.hpp"
@@ -257,10 +258,7 @@ Eigen::VectorXd GroupPath::ratesAt(double t) const {
 }
 
 StateDerivative GroupPath::rateAt(const Arc& arc, double t, const State&) const {
-  const Eigen::VectorXd of = ratesAt(t).segment<12>(12 * rowAt(slotOf(arc)));
-  StateDerivative rate;
-  rate.x = of.head<3>(), rate.theta = of.segment<3>(3), rate.v = of.segment<3>(6), rate.L = of.tail<3>();
-  return rate;
+  return asState(ratesAt(t).segment<12>(12 * rowAt(slotOf(arc))));
 }
 
 TrajectoryEnd GroupPath::end() const {

@@ -59,6 +59,14 @@ Eigen::MatrixXd speedRows(const GroupInstant& now, const std::vector<GroupContac
   return C;
 }
 
+Eigen::MatrixXd velocityRows(const GroupInstant& now, const std::vector<GroupContact>& contacts, const std::vector<std::size_t>& at) {
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(3 * rowAt(at.size()), 6 * rowAt(now.members.size()));
+  Index row = 0;
+  for (const std::size_t k : at)
+    for (int i = 0; i < 3; ++i) putRow(now, contacts[k], now.contacts[k], Vec3::Unit(i), row++, C);
+  return C;
+}
+
 Eigen::MatrixXd undoing(const GroupInstant& now, const Eigen::MatrixXd& C) {
   const Eigen::MatrixXd moved = movedBy(now, C);
   return moved * CompleteOrthogonal(C * moved, kDependentRows).pseudoInverse();

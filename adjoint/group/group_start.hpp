@@ -15,6 +15,8 @@ std::vector<State> groupStart(const GroupScene& scene, const std::vector<GroupCo
 Eigen::MatrixXd gapRows(const GroupInstant& now, const std::vector<GroupContact>& contacts);
 /// Rows of n.u of each contact, or of u where there is no slip at the start, by (v, w) of all members.
 Eigen::MatrixXd speedRows(const GroupInstant& now, const std::vector<GroupContact>& contacts);
+/// The same of u at some contacts, 3 rows each.
+Eigen::MatrixXd velocityRows(const GroupInstant& now, const std::vector<GroupContact>& contacts, const std::vector<std::size_t>& at);
 /// M^-1 C^T (C M^-1 C^T)^+, by which a change of (v, w), or of poses, undoes that of rows C.
 Eigen::MatrixXd undoing(const GroupInstant& now, const Eigen::MatrixXd& C);
 

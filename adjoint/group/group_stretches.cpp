@@ -41,14 +41,7 @@ GroupStretch stretchFrom(const GroupPath& path, const SlipEnds& end, const Group
 std::vector<GroupStretch> stretchesUntil(const GroupPath& path, double t) {
   SlipEnds end;
   if (path.contactThatStops()) end = path.instantAt(path.ending()->time);
-  std::vector<GroupStretch> out;
-  for (const GroupStep& step : path.allSteps()) {
-    if (!(step.length > 0) || !(step.start < t)) break;
-    const bool last = &step == &path.allSteps().back();
-    const double until = last ? t : std::min(t, step.start + step.length);
-    for (double from = step.start; from < until; from = out.back().until) out.push_back(stretchFrom(path, end, step, from, until));
-  }
-  return out;
+  return stretchesOf<GroupStretch>(path.allSteps(), t, [&](const GroupStep& step, double from, double until) { return stretchFrom(path, end, step, from, until); });
 }
 
 Eigen::MatrixXd slopeRates(const GroupPath& path, const GroupInputs& inputs, const std::vector<State>& states, double t, const std::vector<Vec3>& slip) {
