@@ -23,7 +23,7 @@ namespace {
 
 using namespace test;
 
-constexpr int kLastingWorlds = 40;
+constexpr int kLastingWorlds = 40, kWorldsOfAShare = 20;
 constexpr std::size_t kWorkOfWorld = 300'000;
 // How far states of rewritten worlds may differ: so much, or so much of the largest entry of the motion's tangent.
 constexpr double kSameState = 1e-11, kShareOfTangent = 1e-11;
@@ -227,9 +227,10 @@ TEST(LastingWorlds, AreTheSameTurnedAndInReverseOrder) {
   for (const auto& [what, of] : count)
     std::printf("%s: %d worlds, %d of other events, %d of other states; largest share of a tangent where states are off by more than %.0e: %.2g\n",
                 what.c_str(), of.compared, of.sequences, of.apart, kSameState, of.worst);
-  // events too low for people, and contacts of flat landings, are decided by rounding where nothing else decides them
+  // Events too low for people, and contacts of flat landings, are decided by rounding where nothing else decides them:
+  // about one world of five has one. The share of a few worlds tells nothing.
   for (const auto& [what, of] : count) {
-    EXPECT_LE(4 * of.sequences, of.compared) << what;
+    if (of.compared >= kWorldsOfAShare) EXPECT_LE(4 * of.sequences, of.compared) << what;
     EXPECT_LE(20 * of.apart, of.compared) << what;  // see docs/progress.md
   }
 }
