@@ -41,6 +41,10 @@ BallImpact ballBallImpact(const FlightPath& a, const FlightPath& b, const Vec3& 
   const double R = a.radius + b.radius, w2 = w.squaredNorm();
   const double distance = d.norm(), c = (distance - R) * (distance + R);
   if (c > 0 && -dw * (until - from) < 0.5 * c && w2 * (until - from) < -dw) return {};  // too far for the time left
+  // in touch already: what c has is rounding, and balls that do not near each other part
+  const double speeds_now = a.velocityAt(from, g).norm() + b.velocityAt(from, g).norm();
+  const double size = std::max({a.positionAt(from, g).cwiseAbs().maxCoeff(), b.positionAt(from, g).cwiseAbs().maxCoeff(), R});
+  if (distance - R <= kTouch * size && !(-dw > kStill * speeds_now * distance)) return {};
   const double room = std::sqrt(w2) * R, miss = d.cross(w).norm();
   const double D = (room - miss) * (room + miss);
   if (!(D > 0)) return {};

@@ -106,7 +106,18 @@ class GapOfPair {
     if (!isSlow(now)) return true;
     const double h = std::min(kDeeper * tolerance_ / -now.rate, until_ - t);
     if (!(t + h > t)) return true;
-    return stateAt(t + h).gap < now.gap + 0.5 * h * now.rate;
+    return stateAt(t + h).gap < now.gap + 0.5 * h * now.rate && !partsFirst(t, h, now);
+  }
+
+  // Whether what comes so deep within h parts before, so that it comes back later.
+  bool partsFirst(double t, double h, const State& now) const {
+    constexpr double kLonger = 64, kShortest = 1e-18;
+    for (double after = kShortest * h; after < h; after *= kLonger) {
+      const State then = stateAt(t + after);
+      if (then.gap < now.gap - tolerance_) return false;
+      if (then.rate > std::max(then.still, kAtRest * then.own)) return true;
+    }
+    return false;
   }
 
   Root newton(double t, State at) const {
@@ -115,11 +126,22 @@ class GapOfPair {
       const double next = std::max(from_, t - at.gap / at.rate);
       if (std::abs(next - t) <= 2 * kEps * t) return {next, true};
       at = stateAt(next);
+      if (next < t && at.rate > at.still) return {descentBetween(next, t), true};
       if (!(std::abs(at.gap) < best) || !(at.rate < 0)) return {std::abs(at.gap) <= best ? next : t, true};
       best = std::abs(at.gap);
       t = next;
     }
     return {t, true};
+  }
+
+  // The gap rises at `rising` and has fallen again to 0 or less at `fallen`: they have parted and come back.
+  double descentBetween(double rising, double fallen) const {
+    for (;;) {
+      const double middle = rising + 0.5 * (fallen - rising);
+      if (!(middle > rising && middle < fallen)) return fallen;
+      const State at = stateAt(middle);
+      (at.gap > 0 || at.rate > at.still ? rising : fallen) = middle;
+    }
   }
 
   const PairMotion& pair_;

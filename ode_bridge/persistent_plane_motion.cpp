@@ -8,6 +8,12 @@
 // How the planes of held contacts move.
 
 namespace carom::ode_bridge_detail {
+namespace {
+
+// The sine of the angle between the normal of a contact and that of a cap, above which the cap is not what is touched.
+constexpr double kOffCap = 1e-3;
+
+}  // namespace
 
 // With D = n.(e_a x e_b), where n.e_a and n.e_b stay what they are (0, but of a cone): n.dn = 0, e_a.dn = -n.de_a and
 // e_b.dn = -n.de_b. D^2 changes by no more than 4 times the spin, of edges that do not taper D itself by the spin.
@@ -56,6 +62,14 @@ double PersistentPlanes::sideOfCap(const Plane& plane) const {
   const Vec3 e = other.k.R * line.direction, d = disc.k.R * rim.direction;
   const Vec3 out = contactAt(a_, b_, plane.held.front()).point - disc.world(rim.point);
   return (out - d.dot(out) * d).dot(e) > 0 ? -1 : 1;
+}
+
+// Whether the line is level with the cap as it goes along the rim, u.e = 0 in place of b = 0: then it has swung to the other side,
+// and the cap has not come down on it.
+bool PersistentPlanes::swingsPastCap(const Plane& plane, const Placed& a, const Placed& b) {
+  const bool of_a = isRimOf(plane.edge_a);
+  const Vec3 d = (of_a ? a : b).k.R * (of_a ? plane.edge_a : plane.edge_b).direction;
+  return contactAt(a, b, plane.held.front()).normal.cross(d).norm() > kOffCap;
 }
 
 std::optional<PersistentPlanes::Lying> PersistentPlanes::lie(const Plane& plane, const Placed& a, const Placed& b) const {

@@ -188,7 +188,9 @@ PersistentPlanes::Reach PersistentPlanes::reachAt(const PairMotion& pair, double
   for (const Plane& plane : planes_) {
     if (plane.frame == Frame::rim && plane.side != 0) {
       Approach to = levelOfCap(plane, a, b);
-      to.gap *= plane.side, to.rate *= plane.side;
+      const bool swung = to.gap * plane.side < -plane.room && swingsPastCap(plane, a, b);
+      const double side = swung ? -plane.side : plane.side;
+      to.gap *= side, to.rate *= side;
       look(to, false, plane);
     }
     const std::optional<Lying> p = lie(plane, a, b);

@@ -132,6 +132,7 @@ class PersistentPlanes {
   static bool isRimOf(const Feature& f) { return f.rim > 0 && f.apex == 0; }
   static Approach levelOfCap(const Plane& plane, const Placed& a, const Placed& b);
   double sideOfCap(const Plane& plane) const;
+  static bool swingsPastCap(const Plane& plane, const Placed& a, const Placed& b);
   std::optional<Lying> crossing(const Plane& plane, const Placed& a, const Placed& b) const;
   std::optional<Lying> lie(const Plane& plane, const Placed& a, const Placed& b) const;
   Approach approachOf(const Follower& f, const Plane& plane, const Lying& p, const Placed& a, const Placed& b,

@@ -72,6 +72,20 @@ TEST(BallImpact, TwoBallsAgainstExtendedPrecision) {
   EXPECT_GT(met, 500);
 }
 
+// Balls in touch to rounding that go along each other part, whatever sign the rounding of their approach has; what nears clearly meets at once.
+TEST(BallImpact, WhatTouchesAndGoesAlongParts) {
+  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Vec3 n = random.unit(), g(0, 0, -9.81);
+    const double R = random.in(0.1, 1);
+    FlightPath a{random.vec(1), random.vec(2), 1, 0.4 * R}, b{a.x + R * n, a.v + n.cross(random.vec(1)), 1, 0.6 * R};
+    EXPECT_EQ(ballBallImpact(a, b, g, 1, 5).found, BallImpact::Found::none);
+    b.v -= 1e-3 * n;
+    EXPECT_EQ(ballBallImpact(a, b, g, 1, 5).found, BallImpact::Found::impact);
+  }
+}
+
 TEST(BallImpact, BallAndPlaneAgainstExtendedPrecision) {
   int met = 0;
   for (std::uint64_t seed = 1; seed <= 20000; ++seed) {
