@@ -31,7 +31,7 @@ struct ConePrecision<DoubleDouble> {
 };
 
 // Offsets below this share of velocities have forces in units of their own; less yet is none.
-constexpr double kSlight = 1e-2, kNoLoad = 1e-9;
+constexpr double kSlight = 1e-2, kNoLoad = 1e-13;
 constexpr int kCarefulSteps = 40;
 // What two contacts next to one another, one of which bears nothing, may ask of each other at the last, as a share of the speeds:
 // their velocities along the normals differ by the distance between them, and one pressure cannot meet both.

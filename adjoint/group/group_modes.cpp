@@ -209,9 +209,21 @@ class GroupModeSearch {
       shareForces();
       direction = used_;
       ways = next(direction, all);
-      if (ways == ways_) return true;
+      if (ways == ways_) return holdIdle(), true;
     }
     return false;
+  }
+
+  // What begins to slip without moving, as the others hold it, sticks: its direction would be any.
+  void holdIdle() {
+    const std::vector<GroupWay> ways = ways_;
+    const std::vector<Vec3> used = used_;
+    for (std::size_t k = 0; k < ways.size(); ++k)
+      if (ways[k] == GroupWay::begins && tangential(k, slipRate(k)).norm() <= kNoOnset * pull_) ways_[k] = GroupWay::sticks;
+    if (ways_ == ways || (turnAll(ways_, used) && isConsistent())) return;
+    ways_ = ways;
+    turnAll(ways, used);
+    shareForces();
   }
 
   // min f K f / 2 + b f over forces in the cones, those that slip along their normals; then with the shift mu |u'_t| of its last solution,

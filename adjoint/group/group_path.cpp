@@ -17,6 +17,8 @@ namespace carom::adjoint_detail {
 namespace {
 
 constexpr double kMostLeftOfSpeed = 1e-9;
+// Forces that have grown to so many times the weight grow without bound.
+constexpr double kJams = 1e3;
 
 }  // namespace
 
@@ -92,6 +94,7 @@ GroupStep GroupPath::nextStep() {
   double length = std::min(next_length_, lookAtSlips(start));
   const GroupStep* like = steps_.empty() ? nullptr : &steps_.back();
   std::optional<GroupStep> too_long;
+  std::optional<Ending> at_once;  // an end that no step is short enough to come to
   for (int tries = 0; tries < PathLimits::kTries && known_ + length > known_; ++tries) {
     std::optional<GroupStep> step = stepper.tried(start, length, like);
     if (!step) {
@@ -124,6 +127,8 @@ GroupStep GroupPath::nextStep() {
       const bool comes = endAt(stepper, start, *step, *end, guardRounding(end->guard, scene_.size),
                                [&](const GroupStep& of, double t) { return valuesAt(of, t)[which]; });
       if (comes ? passesBy(*step, *end) : left > PathLimits::kAtOnceOfStep * length) {
+        at_once.reset();
+        if (left <= PathLimits::kAtOnce * known_) at_once = end, too_long = std::move(step);
         length *= 0.5;
         continue;
       }
@@ -133,7 +138,29 @@ GroupStep GroupPath::nextStep() {
     end_ = end;
     return *step;
   }
-  throw NotComputable("their path in contact cannot be computed beyond t = " + std::to_string(known_) + " s");
+  if (at_once) {
+    too_long->length = 0;
+    at_once->time = known_;
+    end_ = at_once;
+    return *too_long;
+  }
+  throw NotComputable("their path in contact cannot be computed beyond t = " + std::to_string(known_) + " s" + jamAt(start));
+}
+
+// Where the friction of contacts that slide has all but used up what their forces accelerate, forces grow beyond any bound: they jam
+// (Painleve).
+std::string GroupPath::jamAt(const GroupStepper::Start& start) const {
+  const GroupInstant now = instantOf(scene_, contacts_, start.states, start.time, start.slip);
+  GroupForces forces;
+  forces.solve(contacts_, now, redundant_);
+  double most = 0;
+  bool slides = false;
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    slides = slides || (contacts_[k].mode == ContactMode::slides && contacts_[k].friction > 0);
+    most = std::max(most, forces.pressing(k) / scene_.forceUnit(contacts_[k]));
+  }
+  if (!slides || !(most > kJams)) return {};
+  return textOf(3, ": they jam there (Painleve): the force of a contact has grown to ", most, " times the weight of its bodies");
 }
 
 void GroupPath::take(GroupStep step) {

@@ -76,6 +76,7 @@ class GroupPath final : public Trajectory {
   static std::size_t slotOf(const Arc& arc) { return static_cast<std::size_t>(arc.slot()); }
   void extend();
   GroupStep nextStep();
+  std::string jamAt(const GroupStepper::Start& start) const;
   std::vector<Vec3> slipAfter() const;
   double lookAtSlips(GroupStepper::Start& start) const;
   void alignStop(GroupInstant& now) const;

@@ -58,4 +58,11 @@ struct GroupBeyond {
   double time = 0;
 };
 
+/// How a contact moves against a border of a feature of one of its bodies.
+struct BorderMotion {
+  double inside = 0;  ///< m, from the border
+  double rate = 0;    ///< m/s, of that
+  double speed = 0;   ///< m/s, of the place of contact on the body
+};
+
 }  // namespace carom::adjoint_detail

@@ -16,28 +16,10 @@
 #include "adjoint/simulate/pair_scales.hpp"
 #include "adjoint/simulate/path_transition.hpp"
 #include "adjoint/simulate/simulate.h"
+#include "adjoint/simulate/simulation_limits.hpp"
 #include "adjoint/simulate/supported_component.hpp"
 
 namespace carom::adjoint_detail {
-
-// How far a contact may move within an instant and still be the same one, as a share of its arm.
-inline constexpr double kSamePlace = 1e-6;
-/// Bounces lower than PairScales::leastHeight, of which no digits are left to speak of, on changing features (a rattling
-/// box) count as a cascade after so many in a row.
-inline constexpr int kRattles = 8;
-/// As many impacts of one body as this within kStall instants are a cascade, whichever bodies it meets.
-inline constexpr std::size_t kStallEvents = 64;
-inline constexpr double kStall = 10;
-
-/// A body further away or faster than this (m, m/s) cannot be computed with: fourth powers of it would overflow, whatever
-/// the units.
-inline constexpr double kFurthest = 1e60;
-/// Bodies that ask for their neighbours as often as this without an impact fly too fast for how near they are.
-inline constexpr long kMostSearches = 5'000'000;
-/// An angle of which a sine has no digit left, rad.
-inline constexpr double kMostTurn = 1e15;
-/// Steps of work in which a motion that was ended may bring what it knows into order.
-inline constexpr std::size_t kStepsToEnd = 100'000;
 
 /// Attempts to take over from SimulateOptions::baseline what was met by something else.
 struct Attempts {
@@ -216,12 +198,13 @@ class Simulator {
   void resolveTransition(int body);
   void resolveLanding(const std::vector<Contact>& on);
   Contact& addHeld(const auto& h, bool lasts);
-  void addBeside(const BodyContactState& from);
+  void addBeside(const BodyContactState& from, bool of_group = false);
   void goOnOtherwise(const std::vector<int>& bodies);
 
   // simulator_contact.cpp: persistent contact
   bool contactsLast() const { return motion_.lowest_bounce > 0; }
   std::vector<Contact> contactsBeyond(const BodyContactState& from, int body, double time);
+  std::vector<Contact> contactsAside(const Contact& leaving, int limit);
   bool hasLeft(const Contact& c, double time, double room);
   std::vector<Contact> contactsAt(const BodyContactState& from, double time, double when, double reach);
   std::vector<Contact> closedContacts(int body, bool& ends);
@@ -234,7 +217,8 @@ class Simulator {
   void addCarriers();
   void dropDoubles(std::size_t first = 0, bool keep_earlier = false);
   bool isDouble(const Contact& c, const Contact& d) const;
-  bool isLeaving(const Contact& contact);
+  BorderMotion borderMotion(const Contact& contact, const FeatureLimit& limit);
+  bool isLeaving(const Contact& contact, bool of_moving = false);
   double sizeAt(const Contact& contact) const;
   void addConstrained();
   void chooseArcs();
@@ -242,14 +226,14 @@ class Simulator {
   void fly(std::size_t participant);
   void chooseArc(std::size_t participant);
   ModeHint hintOf(const std::vector<Contact>& closed) const;
-  bool changesTooOften(int body) const;
+  bool changesTooOften(int body, std::size_t most = 8) const;
   bool presses(const Contact& contact) const;
   void endBeyond(const Contact& contact, const std::string& why);
   const BodyContactState& contactStateOf(int body) const;
   std::optional<PredictedImpact> besideConstrained(int a, int b, double from, double until);
 
   // simulator_pressing.cpp: what ends a motion though no contact is new
-  std::vector<const Contact*> closingContacts();
+  std::vector<Contact*> closingContacts();
   bool wouldMoveOnEdges(ContactChoice& choice);
   bool lieAlongEdges(const std::vector<const Contact*>& contacts, const std::vector<Contact>& others);
 

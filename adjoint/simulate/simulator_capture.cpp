@@ -113,7 +113,9 @@ bool Simulator::captureLow(const std::vector<std::size_t>& loose, std::vector<st
   bool more = false;
   for (std::size_t k = 0; k < event.contacts.size(); ++k) {
     Contact& c = event.contacts[k];
-    if (c.lasts || c.kept || c.captured) continue;
+    // one among others that approaches by rounding alone may have been captured without an impulse that closes it
+    const bool closes_nothing = c.captured && !c.lasts && !(c.approach < -scaleOf(c.a, c.b, event.time).neither());
+    if (c.lasts || c.kept || (c.captured && !closes_nothing)) continue;
     double leaves = 0;
     for (int body : {c.a, c.b}) {
       if (!event.find(body)) continue;
@@ -123,7 +125,7 @@ bool Simulator::captureLow(const std::vector<std::size_t>& loose, std::vector<st
     if (!(leaves * leaves < lowest_speed_)) continue;
     const double alpha = accelerationOf(c);
     if (!(alpha < 0 && leaves * leaves < -2 * motion_.lowest_bounce * alpha)) continue;
-    const bool keeps = c.held || !(c.approach < 0);
+    const bool keeps = c.held || closes_nothing || !(c.approach < 0);
     if (keeps && std::ranges::find(loose, k) != loose.end()) continue;
     more = true;
     if (keeps) {

@@ -19,13 +19,15 @@ constexpr double kBeyond = 2e-7;
 constexpr double kLeft = 1e-2;
 // What touches: to so many times the lowest bounce.
 constexpr double kTouching = 10;
+// The sine of the angle to a border by which what leaves it leaves clearly.
+constexpr double kAlong = 1e-2;
 // No contact approaches with a smaller share of its speed.
 constexpr double kSlowest = 1e-10;
 // An impulse makes contacts slip no faster than so many times as fast as it stops bodies.
 constexpr double kOwnSlip = 4;
-// So many changes of contact within this share of an instant never end.
+// So many changes of contact within this share of an instant never end; and after fewer what is left of slips in a group ends.
 constexpr double kSameInstant = 1e-2;
-constexpr std::size_t kMostChanges = 8;
+constexpr std::size_t kRattlingChanges = 4;
 
 }  // namespace
 
@@ -94,16 +96,16 @@ void Simulator::chooseArcs() {
   draft_.closing.clear();
   const std::vector<State> after = draft_.after;
   goOnInParts();
-  std::vector<const Contact*> closing = closingContacts();
+  std::vector<Contact*> closing = closingContacts();
   if (groups_ && !closing.empty()) {  // once more, these held to each other
-    for (const Contact* c : closing) draft_.closing.push_back(c->a), draft_.closing.push_back(c->b);
+    for (Contact* c : closing) c->lasts = true, draft_.closing.push_back(c->a), draft_.closing.push_back(c->b);
     draft_.after = after;
     draft_.arcs.clear();
     draft_.contact_state.clear();
     goOnInParts();
     closing = closingContacts();
   }
-  if (!closing.empty()) endBeyond(*closing.front(), "one of them would move, and motion on bodies that can move is not modelled yet");
+  if (!closing.empty()) endBeyond(*closing.front(), groups_ ? "forces press them together, and no modes were found that hold them" : "one of them would move, and bodies that move on each other are switched off");
   for (Contact& c : event.contacts) {
     if (!c.lasts) continue;
     c.lasts = std::ranges::any_of(draft_.contact_state, [&](const BodyContactState& contact_state) {
@@ -159,6 +161,9 @@ ModeHint Simulator::hintOf(const std::vector<Contact>& closed) const {
   }
   hint.cause = event.cause;
   hint.beyond = draft_.past_end;
+  // What changes over and over in one instant rattles below the lowest bounce: no slip is left that is not faster.
+  const int body = isMoved(event.contacts[0].a) ? event.contacts[0].a : event.contacts[0].b;
+  if (arc_[index(body)]->trajectory().group() && changesTooOften(body, kRattlingChanges)) hint.no_slip = kOwnSlip * std::sqrt(2 * motion_.lowest_bounce * scene_.gravity.norm());
   for (std::size_t k = 0; k < closed.size(); ++k) {
     if (!closed[k].held) hint.idle.push_back(k);
     if (closed[k].features == event.contacts[0].features && closed[k].a == event.contacts[0].a &&
@@ -168,12 +173,12 @@ ModeHint Simulator::hintOf(const std::vector<Contact>& closed) const {
   return hint;
 }
 
-bool Simulator::changesTooOften(int body) const {
+bool Simulator::changesTooOften(int body, std::size_t most) const {
   if (draft_.event.kind != EventKind::transition) return false;
   const auto& arcs = motion_.world_lines[index(body)].arcs;
-  if (arcs.size() <= kMostChanges) return false;
+  if (arcs.size() <= most) return false;
   const double instant = scales_.instantOf(motion_, draft_.event);
-  return arcs[arcs.size() - kMostChanges].start() >= draft_.event.time - kSameInstant * instant;
+  return arcs[arcs.size() - most].start() >= draft_.event.time - kSameInstant * instant;
 }
 
 // The contacts with what is fixed or kinematic that keep a body. `ends`: it presses on one that moves, so that the motion ends here.
@@ -183,7 +188,7 @@ std::vector<Contact> Simulator::closedContacts(int body, bool& ends) {
   for (const Contact& c : draft_.event.contacts) {
     if (!c.lasts || (c.a != body && c.b != body)) continue;
     if (isMoved(c.a == body ? c.b : c.a)) {
-      if (presses(c)) ends = true, endBeyond(c, "one of them would move, and motion on bodies that can move is not modelled yet");
+      if (presses(c)) ends = true, endBeyond(c, groups_ ? "one of them would move by itself" : "one of them would move, and bodies that move on each other are switched off");
       continue;
     }
     closed.push_back(c);
@@ -256,11 +261,34 @@ std::vector<Contact> Simulator::contactsBeyond(const BodyContactState& from, int
     const ContactMotion moves =
         motion_.geometry->motion(c.a, c.b, c.features, {a.x, a.R}, {b.x, b.R}, {a.v, a.w}, {b.v, b.w});
     speed = std::max(speed, moves.point_rate.norm());
+    if (isMoved(c.a) && isMoved(c.b)) speed = std::max(speed, other.v.norm());
   }
   const double further = kBeyond * size, later = speed > 0 ? time + further / speed : time;
   const double reach = kTouching * motion_.lowest_bounce + further * further / arm;
   std::vector<Contact> contacts = contactsAt(from, time, later, reach);
   std::erase_if(contacts, [&](const Contact& c) { return hasLeft(c, later, kLeft * further); });
+  return contacts;
+}
+
+// What a pair has where a contact of it hardly leaves its feature, as it goes along a border: what it would have if that contact were
+// a little outside. Nothing where it leaves clearly: there a little later tells.
+std::vector<Contact> Simulator::contactsAside(const Contact& leaving, int limit) {
+  const auto* bodies = dynamic_cast<const BodyGeometry*>(motion_.geometry.get());
+  const double time = draft_.event.time;
+  const auto limits = bodies ? bodies->limits(leaving.a, leaving.b, leaving.features, poseAt(leaving.a, time), poseAt(leaving.b, time)) : std::vector<FeatureLimit>();
+  if (limit < 0 || limit >= static_cast<int>(limits.size())) return {};
+  const FeatureLimit& border = limits[index(limit)];
+  const BorderMotion moves = borderMotion(leaving, border);
+  if (border.radius > 0 || border.point_weight.isZero(0) || -moves.rate > kAlong * moves.speed) return {};
+  const int moved = isMoved(leaving.a) ? leaving.a : leaving.b;
+  const Vec3 in = (poseAt(border.body, time).R * border.point_weight).normalized();
+  State state = snapshots_[snapshot(moved, time)].state;
+  state.x += (border.body == moved ? kBeyond : -kBeyond) * sizeAt(leaving) * in;
+  const Arc aside = builder_.flight(moved, time, state);
+  const auto arc = [&](int body) -> const Arc& { return body == moved ? aside : arcOf(body); };
+  std::vector<Contact> contacts;
+  for (const FeaturePair& f : contacts_.touching(leaving.a, leaving.b, arc(leaving.a), arc(leaving.b), time, kTouching * motion_.lowest_bounce))
+    contacts.push_back(makeContact(time, leaving.a, leaving.b, f));
   return contacts;
 }
 

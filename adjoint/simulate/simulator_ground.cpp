@@ -51,21 +51,25 @@ double Simulator::sizeAt(const Contact& c) const {
   return std::max(c.at.point.norm(), scales_.radius(isMoved(c.a) ? c.a : c.b));
 }
 
-// Whether the place of a contact is at a border of the fixed body's feature and leaves it.
-bool Simulator::isLeaving(const Contact& c) {
+BorderMotion Simulator::borderMotion(const Contact& c, const FeatureLimit& limit) {
+  const Kinematics &a = snapshots_[snapshot(c.a, draft_.event.time)].k, &b = snapshots_[snapshot(c.b, draft_.event.time)].k;
+  const ContactMotion moves = motion_.geometry->motion(c.a, c.b, c.features, {a.x, a.R}, {b.x, b.R}, {a.v, a.w}, {b.v, b.w});
+  const Kinematics& of = limit.body == c.a ? a : b;
+  const Vec3 weight = of.R * limit.point_weight, way = of.R * limit.normal_weight;
+  const Vec3 point_rate = moves.point_rate - of.v - of.w.cross(c.at.point - of.x), normal_rate = moves.normal_rate - of.w.cross(c.at.normal);
+  return {limit.point_weight.dot(of.R.transpose() * (c.at.point - of.x) - limit.border) + way.dot(c.at.normal),
+          weight.dot(point_rate) + way.dot(normal_rate), point_rate.norm()};
+}
+
+// Whether the place of a contact is at a border of the fixed body's feature, or of one that moves, and leaves it.
+bool Simulator::isLeaving(const Contact& c, bool of_moving) {
   const auto* bodies = dynamic_cast<const BodyGeometry*>(motion_.geometry.get());
   if (!bodies) return false;
-  const Kinematics &ka = snapshots_[snapshot(c.a, draft_.event.time)].k, &kb = snapshots_[snapshot(c.b, draft_.event.time)].k;
-  const Pose A{ka.x, ka.R}, B{kb.x, kb.R};
-  const ContactMotion moves = motion_.geometry->motion(c.a, c.b, c.features, A, B, {ka.v, ka.w}, {kb.v, kb.w});
-  const double size = sizeAt(c);
-  return std::ranges::any_of(bodies->limits(c.a, c.b, c.features, A, B), [&](const FeatureLimit& limit) {
-    if (!isFixed(limit.body)) return false;
-    const Pose& pose = limit.body == c.a ? A : B;
-    const Vec3 weight = pose.R * limit.point_weight, way = pose.R * limit.normal_weight;
-    const double value = limit.point_weight.dot(pose.R.transpose() * (c.at.point - pose.x) - limit.border) +
-                         way.dot(c.at.normal);
-    return std::abs(value) <= kOnBorder * size && weight.dot(moves.point_rate) + way.dot(moves.normal_rate) < 0;
+  const Kinematics &a = snapshots_[snapshot(c.a, draft_.event.time)].k, &b = snapshots_[snapshot(c.b, draft_.event.time)].k;
+  return std::ranges::any_of(bodies->limits(c.a, c.b, c.features, {a.x, a.R}, {b.x, b.R}), [&](const FeatureLimit& limit) {
+    if (!isFixed(limit.body) && (!of_moving || limit.radius > 0 || limit.point_weight.isZero(0))) return false;
+    const BorderMotion moves = borderMotion(c, limit);
+    return std::abs(moves.inside) <= kOnBorder * sizeAt(c) && moves.rate < 0;
   });
 }
 

@@ -19,6 +19,8 @@ namespace {
 constexpr std::size_t kMostMembers = 8, kMostContacts = 36;
 // Where a slip ends, all that are slower than this share of the unit of speed end with it.
 constexpr double kStopTogether = 1e-6;
+// So many changes in an instant, and one for each contact, never end: faces of one size that slide off each other lose each corner by itself.
+constexpr std::size_t kMostChanges = 8;
 
 }  // namespace
 
@@ -91,11 +93,12 @@ void Simulator::beginGroup(const std::vector<int>& members, const std::vector<Co
   } catch (const NotComputable& error) {
     giveUp("contact", own.front().a, own.front().b, draft_.event.time, error);
   }
+  const std::size_t most = kMostChanges + own.size();
   for (std::size_t slot = 0; slot < members.size(); ++slot) {
     GroupMembership& of = draft_.grouped[participantIn(members[slot])].emplace();
     of.path = path, of.slot = static_cast<int>(slot);
     std::ranges::copy_if(own, std::back_inserter(of.held), [&](const Contact& c) { return c.a == members[slot] || c.b == members[slot]; });
-    if (changesTooOften(members[slot])) endBeyond(of.held.front(), "their contact modes change more than 8 times in one instant");
+    if (changesTooOften(members[slot], most)) endBeyond(of.held.front(), textOf(3, "their contact modes change more than ", most, " times in one instant"));
   }
 }
 
@@ -140,7 +143,8 @@ void Simulator::resolveGroupTransition(int body) {
   const GroupContact& first = path.contacts()[index(end.contact)];
   if (event.cause == TransitionCause::leaves) {
     const int of = isMoved(first.a) ? first.a : first.b;
-    std::vector<Contact> beyond = contactsBeyond(contact_states_[index(of)], of, event.time);
+    std::vector<Contact> beyond = contactsAside(makeContact(event.time, first.a, first.b, first.features), end.limit);
+    if (beyond.empty()) beyond = contactsBeyond(contact_states_[index(of)], of, event.time);
     std::erase_if(beyond, [&](const Contact& c) { return c.approach > strikingSpeed(c) || c.a != first.a || c.b != first.b; });
     if (std::ranges::any_of(beyond, [&](const Contact& c) { return strikes(c); })) return resolveLanding(beyond);
     addHeld(first, false);
@@ -152,9 +156,11 @@ void Simulator::resolveGroupTransition(int body) {
   } else {
     addHeld(first, event.cause != TransitionCause::lifts);
   }
+  // of a pair that leaves a feature all that it has is known, others of its contacts may leave with the first
+  const auto known = [&](int a, int b) { return event.cause == TransitionCause::leaves && a == first.a && b == first.b; };
   for (const GroupContact& h : path.contacts())
-    if (!inDraft(h.a, h.b, h.features)) addHeld(h, true);
-  for (const int member : members) addBeside(contact_states_[index(member)]);
+    if (!known(h.a, h.b) && !inDraft(h.a, h.b, h.features)) addHeld(h, true);
+  for (const int member : members) addBeside(contact_states_[index(member)], true);
   draft_.group_beyond.reset();
   if (auto later = path.beyondEnd()) draft_.group_beyond = {members, std::move(later->first), later->second};
   goOnOtherwise(members);

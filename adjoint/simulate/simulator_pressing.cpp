@@ -13,6 +13,8 @@ namespace {
 
 // Accelerations towards each other above this share of the largest one press.
 constexpr double kPressing = 1e-9;
+// What parts at such a share of the speed of the lowest bounce does so without speed.
+constexpr double kNoSpeed = 1e-4;
 // Contacts nearer than this share of the size of positions are at one point.
 constexpr double kOnePoint = 1e-9;
 // The sine by which normals differ, or a way along one face goes below another one.
@@ -21,8 +23,9 @@ constexpr double kDiffers = 1e-6;
 }  // namespace
 
 // What friction slows down may press on what touches it, which forces along the normals do not tell: contacts of the draft that
-// close although none holds their bodies.
-std::vector<const Contact*> Simulator::closingContacts() {
+// close although none holds their bodies. In groups those count, too, that forces on a body by itself would let part, where they
+// do so without speed.
+std::vector<Contact*> Simulator::closingContacts() {
   const double time = draft_.event.time;
   double pull = 0;
   const auto sideOf = [&](int body) -> ContactSide {
@@ -35,9 +38,15 @@ std::vector<const Contact*> Simulator::closingContacts() {
     return {s, FreeAcceleration{rate.v, A * (rate.L - (A * s.L).cross(s.L))}};
   };
   const auto rubs = [&](int body) { return !pathOf(body).isFlight() && pathOf(body).kind() != ArcKind::rest; };
-  std::vector<const Contact*> closing;
-  for (const Contact& c : draft_.event.contacts) {
-    if (!c.lasts || !joinsMoved(c) || !(rubs(c.a) || rubs(c.b)) || !draft_.beyond.empty()) continue;
+  const auto speedOf = [&](int body, const Contact& c) {
+    const Kinematics now = arcOf(body).kinematicsOf(stateAfter(body));
+    return c.at.normal.dot(now.v + now.w.cross(c.at.point - now.x));
+  };
+  const double no_speed = kNoSpeed * std::sqrt(2 * motion_.lowest_bounce * scene_.gravity.norm());
+  std::vector<Contact*> closing;
+  for (Contact& c : draft_.event.contacts) {
+    if (!joinsMoved(c) || !(rubs(c.a) || rubs(c.b)) || !draft_.beyond.empty()) continue;
+    if (!c.lasts && !(groups_ && !c.held && std::abs(speedOf(c.a, c) - speedOf(c.b, c)) <= no_speed)) continue;
     const ContactSide a = sideOf(c.a), b = sideOf(c.b);
     if (gapAcceleration(motion_, c, a, b) < -kPressing * std::max(pull, scene_.gravity.norm())) closing.push_back(&c);
   }

@@ -77,12 +77,13 @@ Simulator::RideEnd Simulator::resolveRide(int body) {
     leaveCarrier(*ride, part, held);
     if (draft_.beyond.empty()) return RideEnd::otherwise;
   }
+  const std::size_t why = draft_.beyond.rfind("; ");
+  const std::string reason = leaves && why != std::string::npos ? draft_.beyond.substr(why) : "; they would move on each other, so the motion ends there";
   const std::string carrier = adjoint_detail::namesOf(motion_, arcOf(body).trajectory().ride()->carrier());
   for (const int member : bodies_) in_draft_[index(member)] = -1;
   finish(MotionStatus::unresolved_contact, now,
          textOf(10, namesOf(pair.a, pair.b), " rest on each other, on ", carrier, ", until t = ", now,
-                leaves ? " s, where they come to its end" : " s, where it no longer holds them", ", after ", eventsSoFar(),
-                "; motion on bodies that can move is not modelled yet, so the motion ends there"));
+                leaves ? " s, where they come to its end" : " s, where it no longer holds them", ", after ", eventsSoFar(), reason));
   return RideEnd::ends;
 }
 

@@ -67,11 +67,13 @@ void Simulator::goOnOtherwise(const std::vector<int>& bodies) {
 }
 
 // What touches beside the contacts that hold a body, as corners of a face that lies flat without pressing, may come to
-// hold it.
-void Simulator::addBeside(const BodyContactState& from) {
+// hold it. In a group a feature may be left on any of its bodies: what has just gone off one is no contact.
+void Simulator::addBeside(const BodyContactState& from, bool of_group) {
   std::vector<Contact>& contacts = draft_.event.contacts;
   for (Contact& c : contactsAt(from, draft_.event.time, draft_.event.time, 0)) {
-    if (inDraft(c.a, c.b, c.features) || c.approach > scaleOf(c.a, c.b, draft_.event.time).neither() || strikes(c)) continue;
+    if (inDraft(c.a, c.b, c.features) || c.approach > scaleOf(c.a, c.b, draft_.event.time).neither() || strikes(c) ||
+        (of_group && isLeaving(c, true)))
+      continue;
     c.counted = false;
     c.lasts = true;
     contacts.push_back(std::move(c));

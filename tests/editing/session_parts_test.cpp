@@ -148,6 +148,13 @@ TEST(SessionParts, AMotionThatEndsEarlySaysSo) {
     scene.bodies[b].position = {0.4, 50, height}, scene.bodies[b].velocity = {0.5, 0, 0}, scene.bodies[b].angular_velocity.setZero();
     height += 0.2;
   }
+  for (int i = 0; i < 7; ++i) {  // more bodies than move on each other
+    Body plate = scene.bodies[1];
+    plate.name = "plate " + std::to_string(i);
+    plate.shape = Box{Vec3(0.2, 0.2, 0.02)};
+    plate.position.z() = 5.51 + 0.02 * i;
+    scene.bodies.push_back(plate);
+  }
   OdeContacts contacts(scene);
   EditSession session(scene, contacts, 3.0, withoutClock());
   session.setControls({velocity("hit")});

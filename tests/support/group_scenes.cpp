@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "adjoint/motion/body_geometry.h"
 #include "ode_bridge/ode_contacts.h"
 #include "tests/support/scenes.h"
 
@@ -36,6 +37,26 @@ double energyOf(const Motion& m, double t) {
     energy += 0.5 * w.dot(model.inertia.cwiseProduct(w));
   }
   return energy;
+}
+
+Kept keptBy(const Motion& m, int looks) {
+  const auto* geometry = dynamic_cast<const BodyGeometry*>(m.geometry.get());
+  Kept kept;
+  double before = energyOf(m, 0);
+  const double size = 1 + std::abs(before);
+  const int count = static_cast<int>(m.world_lines.size());
+  for (int i = 1; i <= looks; ++i) {
+    const double t = std::min(m.end, m.end * i / looks), energy = energyOf(m, t);
+    kept.gain = std::max(kept.gain, (energy - before) / size);
+    before = energy;
+    const auto pose = [&](int body) {
+      const BodyState s = m.stateAt(body, t);
+      return Pose{s.position, s.orientation.toRotationMatrix()};
+    };
+    for (int a = 0; a < count; ++a)
+      for (int b = a + 1; b < count; ++b) kept.deepest = std::max(kept.deepest, geometry->overlap(a, b, pose(a), pose(b)));
+  }
+  return kept;
 }
 
 Scene sceneOf(double friction, std::vector<Body> bodies, const Vec3& gravity) {

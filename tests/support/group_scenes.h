@@ -18,6 +18,13 @@ Scene inOrder(Scene scene, bool reverse);
 /// Of all that moves, in the scene's gravity, J.
 double energyOf(const Motion& m, double t);
 
+/// Of bodies with their centres of mass at their origins, at so many times: the deepest overlap, m, and what energy grows by from one time to
+/// the next, as a share of it.
+struct Kept {
+  double deepest = 0, gain = 0;
+};
+Kept keptBy(const Motion& m, int looks = 60);
+
 /// Materials "rough" and "ice": ice slips on everything.
 Scene sceneOf(double friction, std::vector<Body> bodies, const Vec3& gravity = kDown);
 Body onIce(Body body);
