@@ -59,7 +59,8 @@ std::string earlyEnd(const Motion& motion) {
   if (motion.status == MotionStatus::complete) return "";
   // of contact that is not modelled the motion tells place, time and number of impacts, with all digits
   const bool contact = motion.status == MotionStatus::cascade || motion.status == MotionStatus::unresolved_contact;
-  const std::string why = motion.message.substr(0, contact ? motion.message.find(" from t = ") : std::string::npos);
+  const std::size_t digits = std::min(motion.message.find(" from t = "), motion.message.find(", until t = "));
+  const std::string why = motion.message.substr(0, contact ? digits : std::string::npos);
   return "The motion ends at " + brief(motion.end) + " s: " + why + ".";
 }
 

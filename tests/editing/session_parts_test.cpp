@@ -160,7 +160,7 @@ TEST(SessionParts, AMotionThatEndsEarlySaysSo) {
   session.setControls({velocity("hit")});
   ASSERT_LT(session.motion().end, 3.0);
   EXPECT_NE(session.last().message.find("The motion ends at"), std::string::npos) << session.last().message;
-  EXPECT_NE(session.last().message.find("'mover' and 'hit' stay in contact."), std::string::npos)
+  EXPECT_NE(session.last().message.find("'mover' and 'hit' rest on each other, on 'belt'."), std::string::npos)
       << "no digits that nobody reads: " << session.last().message;
   try {
     session.grab("hit", 2.9);
