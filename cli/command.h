@@ -39,7 +39,7 @@ struct Command {
 
 std::span<const Command* const> commands();
 
-extern const Command kSimulateCommand, kGradientCommand, kCheckCommand, kEditCommand, kExportCommand, kImportCommand,
+extern const Command kSimulateCommand, kGradientCommand, kCheckCommand, kEditCommand, kExploreCommand, kExportCommand, kImportCommand,
     kValidateCommand, kInfoCommand, kReplayCommand, kStudioCommand, kCompletionCommand, kManCommand;
 
 }  // namespace carom::cli

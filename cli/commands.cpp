@@ -5,7 +5,7 @@ namespace carom::cli {
 
 std::span<const Command* const> commands() {
   static constexpr const Command* kTable[] = {&kSimulateCommand, &kGradientCommand, &kCheckCommand,
-                                              &kEditCommand,
+                                              &kEditCommand,     &kExploreCommand,
 #ifndef CAROM_NO_STUDIO  // built without it
                                               &kStudioCommand,
 #endif

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "adjoint/scene/scene.h"
+#include "editing/distribution.h"
 
 namespace carom {
 
@@ -23,6 +24,8 @@ struct Control {
   std::vector<double> max; ///< upper bounds, likewise
   double weight = 1;                    ///< w in the cost (w change / natural scale)^2
   std::string notes = {};               ///< for readers; kept in documents
+  /// How likely its values are; read by `explore` alone.
+  std::optional<Distribution> distribution = {};
 
   /// Bounds every component, SI.
   Control& within(double lo, double hi) { return min = {lo}, max = {hi}, *this; }

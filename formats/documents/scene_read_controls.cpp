@@ -120,6 +120,7 @@ Control readControl(const Json& value, const Scene& scene, const std::string& wh
   control.max = readBound(value, "max", count, where);
   requireOrder(control, where);
   control.weight = value.value("weight", control.weight);
+  if (value.contains("distribution")) control.distribution = readDistribution(value["distribution"], count, where + "/distribution");
   control.notes = textOr(value, "notes");
   return control;
 }

@@ -13,6 +13,8 @@ class SurfaceFiles;
 Document readDocument(const Json& document, const std::string& folder);
 Scene readScene(const Json& document, SurfaceFiles& files);
 std::vector<Control> readControls(const Json& document, const Scene& scene);
+/// The distribution of a control, of which `count` components vary.
+Distribution readDistribution(const Json& value, std::size_t count, const std::string& where);
 std::vector<Constraint> readConstraints(const Json& document, const Scene& scene, double duration);
 
 /// The folder of a file, never empty.

@@ -115,6 +115,7 @@ void requireWritableDocument(const Document& document) {
     for (const double bound : control.min) requireFinite(where + "/min", bound);
     for (const double bound : control.max) requireFinite(where + "/max", bound);
     requireFinite(where + "/weight", control.weight);
+    if (control.distribution) requireWritable(*control.distribution, where + "/distribution");
   }
   for (std::size_t i = 0; i < document.constraints.size(); ++i)
     requireWritable(document.constraints[i], "/constraints/" + std::to_string(i));
@@ -135,6 +136,7 @@ void formats_detail::writeControl(JsonWriter& out, const Control& control) {
   writeBound(out, "min", control.min);
   writeBound(out, "max", control.max);
   if (control.weight != 1) out.members("weight", control.weight);
+  if (control.distribution) writeDistribution(out, *control.distribution);
   out.unlessEmpty("notes", control.notes).endObject();
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "adjoint/scene/shape.h"
+#include "editing/distribution.h"
 
 namespace carom {
 struct Constraint;
@@ -23,6 +24,9 @@ void writeControl(JsonWriter& out, const Control& control);
 /// Its members that say what varies: vary, body, material, impact, components.
 void writeVaried(JsonWriter& out, const Control& control);
 
+/// The member of a control that says how likely its values are.
+void writeDistribution(JsonWriter& out, const Distribution& distribution);
+
 /// Writes a shape as an object with its word: { "sphere": { "radius": 1 } }.
 void writeShape(JsonWriter& out, const Shape& shape);
 /// The same without its end, for members that follow.
@@ -37,6 +41,7 @@ void writeConstraint(JsonWriter& out, const Constraint& constraint);
 void requireFinite(const std::string& where, double value);
 /// What a document cannot say. The components that are left free are the only numbers that may be NaN.
 void requireWritable(const Constraint& constraint, const std::string& where);
+void requireWritable(const Distribution& distribution, const std::string& where);
 
 /// Throws InputError for a mesh without a file: the document has no other form for it.
 void requireFiles(Shape shape, const std::string& where);

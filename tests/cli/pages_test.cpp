@@ -92,7 +92,7 @@ TEST(Completion, ShellsTakeTheScripts) {
 
 TEST(Completion, BashOffersCommands) {
   EXPECT_EQ(offered({""}), commandNames());
-  EXPECT_EQ(offered({"e"}), (Offer{"edit", "export"}));
+  EXPECT_EQ(offered({"e"}), (Offer{"edit", "explore", "export"}));
   EXPECT_EQ(offered({"--v"}), Offer{"--version"});
 }
 

@@ -130,6 +130,20 @@ void expectSameScene(const Scene& a, const Scene& b) {
   }
 }
 
+void expectSameDistribution(const Distribution& a, const Distribution& b) {
+  ASSERT_EQ(a.index(), b.index());
+  if (const auto* normal = std::get_if<NormalDistribution>(&a)) {
+    const auto& other = std::get<NormalDistribution>(b);
+    EXPECT_EQ(std::tie(normal->mean, normal->deviation, normal->factor), std::tie(other.mean, other.deviation, other.factor));
+  } else if (const auto* log_normal = std::get_if<LogNormalDistribution>(&a)) {
+    const auto& other = std::get<LogNormalDistribution>(b);
+    EXPECT_EQ(std::tie(log_normal->median, log_normal->deviation, log_normal->factor),
+              std::tie(other.median, other.deviation, other.factor));
+  } else if (const auto* uniform = std::get_if<UniformDistribution>(&a)) {
+    EXPECT_EQ(std::tie(uniform->from, uniform->to), std::tie(std::get<UniformDistribution>(b).from, std::get<UniformDistribution>(b).to));
+  }
+}
+
 void expectSameEdit(const Document& a, const Document& b) {
   ASSERT_EQ(a.controls.size(), b.controls.size());
   for (std::size_t i = 0; i < a.controls.size(); ++i) {
@@ -142,6 +156,8 @@ void expectSameEdit(const Document& a, const Document& b) {
     EXPECT_EQ(c.min, d.min);
     EXPECT_EQ(c.max, d.max);
     EXPECT_EQ(c.weight, d.weight);
+    ASSERT_EQ(c.distribution.has_value(), d.distribution.has_value());
+    if (c.distribution) expectSameDistribution(*c.distribution, *d.distribution);
     EXPECT_EQ(c.notes, d.notes);
   }
   ASSERT_EQ(a.constraints.size(), b.constraints.size());

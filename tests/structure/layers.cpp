@@ -23,7 +23,7 @@ const std::map<std::string, std::vector<Layer>>& layers() {
         folder("impact"), folder("constrained"), folder("group"), folder("simulate"), folder("derivative"), folder("second_order")}},
       {"editing",
        {folder("detail"),
-        {"data", std::regex("(certificate|constraint|control|edit_options|edit_result|motion_function|sequence_changes|"
+        {"data", std::regex("(certificate|constraint|control|distribution|edit_options|edit_result|motion_function|sequence_changes|"
                             "session_journal|solver_library|wanted|why_not)\\.(h|cpp)")},
         folder("problem"),
         folder("solve"),
@@ -44,6 +44,7 @@ const std::map<std::string, std::vector<Layer>>& layers() {
         folder("shapes"),
         folder("export"),
         folder("answers")}},
+      {"explore", {folder("numbers"), folder("draws"), folder("worlds"), folder("store"), {"explore", std::regex("[^/]*")}}},
   };
   return libraries;
 }

@@ -75,7 +75,7 @@ std::map<std::string, std::string> readProse(const fs::path& root) {
   };
   for (const fs::directory_entry& entry : fs::directory_iterator(root))
     if (entry.is_regular_file() && entry.path().extension() == ".md") take(entry.path());
-  for (const char* folder : {"docs", "adjoint", "ode_bridge", "editing", "formats", "studio", "cli", "python"})
+  for (const char* folder : {"docs", "adjoint", "ode_bridge", "editing", "formats", "explore", "studio", "cli", "python"})
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder))
       if (entry.is_regular_file()) take(entry.path());
   return prose;

@@ -9,7 +9,7 @@ namespace carom::structure {
 namespace {
 
 bool inLibrary(const std::string& path) {
-  static const std::regex library("(adjoint|ode_bridge|editing|formats)/.*");
+  static const std::regex library("(adjoint|ode_bridge|editing|formats|explore)/.*");
   return std::regex_match(path, library);
 }
 

@@ -78,7 +78,7 @@ std::vector<std::vector<std::string>> circles(const Sources& sources) {
 }
 
 std::vector<std::string> circleViolations(const Sources& sources) {
-  static const std::set<std::string> product = {"adjoint", "ode_bridge", "editing", "formats", "cli"};
+  static const std::set<std::string> product = {"adjoint", "ode_bridge", "editing", "formats", "explore", "cli"};
   std::vector<std::string> violations;
   for (const std::vector<std::string>& circle : circles(sources)) {
     if (circle.size() <= kMostRooms || !product.contains(folderOf(circle.front()))) continue;

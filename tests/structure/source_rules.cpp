@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-const std::vector<std::string> kFolders = {"adjoint", "ode_bridge", "editing", "formats", "cli",  "studio",
+const std::vector<std::string> kFolders = {"adjoint", "ode_bridge", "editing", "formats", "explore", "cli", "studio",
                                            "python",  "examples",   "tests",   "bench",   "fuzz"};
 
 // Which folders of the project a library may include; a folder that is not listed may include all.
@@ -26,8 +26,9 @@ const std::map<std::string, std::vector<std::string>> kMayInclude = {
     {"ode_bridge", {"ode_bridge", "adjoint"}},
     {"editing", {"editing", "adjoint"}},
     {"formats", {"formats", "editing", "ode_bridge", "adjoint"}},
+    {"explore", {"explore", "formats", "editing", "adjoint"}},
     {"studio", {"studio", "formats", "editing", "ode_bridge", "adjoint"}},
-    {"python", {"python", "formats", "editing", "ode_bridge", "adjoint"}},
+    {"python", {"python", "explore", "formats", "editing", "ode_bridge", "adjoint"}},
 };
 
 // A library that only some files may include. The patterns match whole include names and whole paths.
