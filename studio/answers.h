@@ -51,6 +51,8 @@ std::string alternativesMessage(const Findings& found, std::int64_t rev);
 std::string alternativeMembers(const Findings& found, std::size_t index, std::int64_t rev);
 /// How far the search for a face that is up has come.
 std::string faceUpMessage(const Findings& found, std::int64_t rev);
+/// How far a path has come along a drawn curve.
+std::string sketchMessage(const Findings& found, std::int64_t rev);
 /// That no answer comes to such a question any more.
 std::string cancelledMessage(const std::string& type, std::int64_t rev);
 

@@ -48,6 +48,10 @@ std::string faceUpMessage(const Findings& found, std::int64_t rev) {
   return foundText({{"type", "face_up"}, {"rev", rev}, {"more", found.more}, {"tried", found.face.tried}, {"found", found.face.content.has_value()}, {"message", message}});
 }
 
+std::string sketchMessage(const Findings& found, std::int64_t rev) {
+  return foundText({{"type", "sketch"}, {"rev", rev}, {"more", found.more}, {"message", found.problem}});
+}
+
 std::string cancelledMessage(const std::string& type, std::int64_t rev) {
   return foundText({{"type", type}, {"rev", rev}, {"cancelled", true}});
 }

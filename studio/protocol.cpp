@@ -115,6 +115,12 @@ What readFaceUp(const Json& m) {
   return face;
 }
 
+What readSketch(const Json& m) {
+  Sketch sketch{integer(m, "rev"), m["body"].get<std::string>(), m["from"].get<double>(), {}};
+  for (const Json& place : m["places"]) sketch.places.push_back(readVector(place));
+  return sketch;
+}
+
 What readSave(const Json& m) {
   Save save{std::nullopt, m.value("replace", false)};
   if (m.contains("path")) save.path = m["path"].get<std::string>();
@@ -147,7 +153,7 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
          return NailOn{nailOf(m), m["on"].get<bool>()};
        }},
       {"keep_sequence", [](const Json& m) -> What { return KeepSequence{m["on"].get<bool>()}; }},
-      {"unnail", [](const Json& m) -> What { return Unnail{nailOf(m)}; }},
+      {"unnail", [](const Json& m) -> What { return Unnail{m.value("nail", 0), m.value("sketch", std::string())}; }},
       {"controls",
        [](const Json& m) -> What {
          return SetControls{integer(m, "rev"), compactText(m["controls"])};
@@ -173,6 +179,7 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
       {"remedy", [](const Json& m) -> What { return TakeRemedy{integer(m, "rev"), m["name"].get<std::string>()}; }},
       {"adopt", [](const Json& m) -> What { return Adopt{integer(m, "rev"), m["index"].get<int>()}; }},
       {"face_up", readFaceUp},
+      {"sketch", readSketch},
       {"list", [](const Json& m) -> What { return List{m.value("path", std::string()), m.value("meshes", false)}; }},
       {"gallery", [](const Json&) -> What { return Gallery{}; }}};
   return all;

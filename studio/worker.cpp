@@ -4,17 +4,9 @@
 #include <algorithm>
 
 #include "studio/refusal.h"
+#include "studio/throw_of.h"
 
 namespace carom::studio {
-namespace {
-
-/// The throw of a body, cheap beside the numbers that a person let vary.
-std::vector<Control> throwOf(const std::string& body) {
-  constexpr double kWeight = 0.2;
-  return {velocity(body).weighted(kWeight), angularVelocity(body).weighted(kWeight)};
-}
-
-}  // namespace
 
 Worker::Worker(Mailbox& mailbox, Workspace& workspace, Post post, WorkerOptions options)
     : mailbox_(mailbox), workspace_(workspace), options_(std::move(options)), tabs_(std::move(post)), recent_(options_.recent) {

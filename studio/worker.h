@@ -111,6 +111,7 @@ class Worker {
   void perform(const Asker& asker, const TakeRemedy& take);
   void perform(const Asker& asker, const Adopt& adopt);
   void perform(const Asker& asker, const FaceUp& face);
+  void perform(const Asker& asker, const Sketch& sketch);
   void perform(const Asker& asker, const Found& found);
   void perform(const Asker& asker, const List& list);
   void perform(const Asker& asker, const Gallery& gallery);
@@ -130,9 +131,12 @@ class Worker {
   void sayChange(const Asker& asker, const SessionUpdate& update);
   template <class Make>
   void changeBodies(const Asker& asker, std::int64_t rev, const std::string& name, const Make& make);
+  void showTried(const Asker& asker, const MotionNews& news, const std::shared_ptr<const Motion>& motion);
   void endTry();
   template <class Find>
   void askInBackground(const Asker& asker, std::int64_t rev, const std::string& type, const Find& find);
+  void takeFaceUp(const Asker& asker, const Findings& found);
+  void takeSketch(const Asker& asker, const Findings& found);
   void endQuestion();
   const Findings& findingsFor(const Asker& asker, std::int64_t rev, const std::string& type);
   std::string newName() const;

@@ -2,6 +2,8 @@
 // What a person can do besides dragging: called by keys, buttons and menus alike.
 
 import { tellChanges } from './messages.js';
+import { lengthText } from './number_field_text.js';
+import { curvesOf } from './overlay/sketches.js';
 import { PlayHead } from './play_head.js';
 import { hitAt } from './take.js';
 
@@ -176,6 +178,23 @@ export class Commands extends PlayHead {
     const { up, place } = facing, nail = nailOnRelease ? { nail: true } : {};
     const members = { body: document.bodies[facing.body].name, up, ...(place ? { place: place.slice(0, 2) } : {}), ...nail };
     if (!await this.build('face_up', members)) this.store.set({ facing: null });
+  }
+
+  /** Looks for a path along the curve that was drawn. */
+  async sketchPath() {
+    const { sketch, document, motion } = this.store.state;
+    if (!sketch || !document) return;
+    this.store.set({ sketch: { ...sketch, searching: true }, before: motion, changesShown: false });
+    const members = { body: document.bodies[sketch.body].name, from: sketch.from, places: sketch.places };
+    if (!await this.build('sketch', members)) this.store.set({ sketch: null, before: null });
+  }
+
+  /** What came of a sketch. */
+  tellSketch() {
+    const { document } = this.store.state, curve = curvesOf((document?.nails ?? []).map((nail) => ({ nail }))).at(-1);
+    if (!curve) return;
+    const off = Math.max(...curve.map(({ nail }) => nail.error)), { body } = curve[0].nail.constraint;
+    this.store.set({ notice: { message: `'${body}' goes along the curve, at most ${lengthText(off)} off it.`, key: 'sketched', actions: [{ name: 'Undo', act: () => void this.undo() }] } });
   }
 
   /** Looks for other motions that meet the same. */

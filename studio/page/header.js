@@ -99,7 +99,7 @@ function showAdding(store, commands) {
 
 /** @param {import('./store.js').Store<State>} store @param {import('./commands.js').Commands} commands */
 function showTools(store, commands) {
-  const move = button('tool-move', () => store.set({ tool: 'move' })), throwing = button('tool-throw', () => commands.aimThrow()), turn = button('tool-turn', () => store.set({ tool: 'turn' })), face = button('tool-face', () => store.set({ tool: 'face' }));
+  const move = button('tool-move', () => store.set({ tool: 'move' })), throwing = button('tool-throw', () => commands.aimThrow()), turn = button('tool-turn', () => store.set({ tool: 'turn' })), face = button('tool-face', () => store.set({ tool: 'face' })), pen = button('tool-pen', () => store.set({ tool: 'pen' }));
   button('tool-nail', () => void commands.nailHere());
   const nailing = button('nail-on-release', () => store.set({ nailOnRelease: !store.state.nailOnRelease }));
   const free = button('leave-rest-free', () => store.set(store.state.tool === 'turn' ? { turnLeavesPlace: !store.state.turnLeavesPlace } : { leaveRestFree: !store.state.leaveRestFree }));
@@ -108,6 +108,8 @@ function showTools(store, commands) {
     turn.setAttribute('aria-pressed', String(tool === 'turn'));
     throwing.setAttribute('aria-pressed', String(tool === 'throw'));
     face.setAttribute('aria-pressed', String(tool === 'face'));
+    pen.setAttribute('aria-pressed', String(tool === 'pen'));
+    byId('overlay').classList.toggle('pen', tool === 'pen');
     nailing.setAttribute('aria-pressed', String(nailOnRelease));
     free.setAttribute('aria-pressed', String(tool === 'turn' ? turnLeavesPlace : leaveRestFree));
     free.title = tool === 'turn' ? 'Turns leave the place free' : 'Drags along an axis leave the rest free';

@@ -23,6 +23,7 @@ import { showNumbers } from './panels/numbers.js';
 import { showOthers } from './panels/others.js';
 import { showScene } from './panels/scene.js';
 import { showPlayer } from './player.js';
+import { Sketching } from './sketching.js';
 import { makeStage } from './stage.js';
 import { initialState, Store } from './store.js';
 import { addTestHooks } from './test_hooks.js';
@@ -63,7 +64,7 @@ function start() {
   let gesture = null;
   const connection = new Connection({
     url: `ws://${location.host}/socket`, token: takeToken(), tab: store.state.tab,
-    listener: listener({ store, gesture: () => gesture, opened: () => frame(-1, true), recovered: (steps, repairs) => commands.tellRecovered(steps, repairs) }),
+    listener: listener({ store, gesture: () => gesture, opened: () => frame(-1, true), recovered: (steps, repairs) => commands.tellRecovered(steps, repairs), drawn: () => commands.tellSketch() }),
   });
   gesture = new Gesture({
     store, connection, space: { touched: (hit) => touchedAt(store.state, hit), ray: (x, y) => view.camera.ray(x, y), project: (p) => [view.camera.project(p)[0], view.camera.project(p)[1]], camera: () => view.camera.axes() },
@@ -93,7 +94,8 @@ function start() {
   showHint(store);
   showLayout(store);
   const timeline = new TimeLine(/** @type {HTMLCanvasElement} */ (byId('timeline')), store, commands);
-  const parts = { store, gesture, facing, commands, overlay, view, frame };
+  const sketching = new Sketching({ store, overlay, view, commands });
+  const parts = { store, gesture, facing, sketching, commands, overlay, view, frame };
   listenToPointer(parts);
   listenToKeys(parts);
   if (query.has('test')) addTestHooks({ store, view, overlay, timeline, connection, gesture });
