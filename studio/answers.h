@@ -56,6 +56,11 @@ std::string sketchMessage(const Findings& found, std::int64_t rev);
 /// That no answer comes to such a question any more.
 std::string cancelledMessage(const std::string& type, std::int64_t rev);
 
+/// That so many bytes of a file are here.
+std::string uploadedMessage(std::size_t bytes);
+/// What came of an import.
+struct ImportedFile;
+std::string importedMessage(const ImportedFile& imported);
 std::string savedMessage(const std::string& path, std::int64_t rev);
 /// `recent`: the scenes of the workspace that were opened last.
 std::string filesMessage(const std::string& path, const std::vector<ListedFile>& files,

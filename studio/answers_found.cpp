@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What was found in the background, as messages.
+// What was found in the background, and what was imported, as messages.
 #include <cmath>
 
 #include "formats/json/json.hpp"
 #include "studio/answers.h"
 #include "studio/findings.h"
+#include "studio/imports.h"
 
 namespace carom::studio {
 
@@ -50,6 +51,12 @@ std::string faceUpMessage(const Findings& found, std::int64_t rev) {
 
 std::string sketchMessage(const Findings& found, std::int64_t rev) {
   return foundText({{"type", "sketch"}, {"rev", rev}, {"more", found.more}, {"message", found.problem}});
+}
+
+std::string uploadedMessage(std::size_t bytes) { return foundText({{"type", "uploaded"}, {"bytes", bytes}}); }
+
+std::string importedMessage(const ImportedFile& imported) {
+  return foundText({{"type", "imported"}, {"path", imported.path}, {"mesh", imported.mesh}, {"warnings", imported.warnings}});
 }
 
 std::string cancelledMessage(const std::string& type, std::int64_t rev) {

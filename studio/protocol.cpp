@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "formats/base/base64.hpp"
 #include "formats/documents/scene_reader.hpp"
 #include "formats/json/json.hpp"
 
@@ -121,6 +122,12 @@ What readSketch(const Json& m) {
   return sketch;
 }
 
+What readUpload(const Json& m) {
+  std::optional<std::string> bytes = fromBase64(m["data"].get<std::string>());
+  if (!bytes) fail("/data", "other text", "bytes in base64 (RFC 4648)");
+  return Upload{m["name"].get<std::string>(), m["at"].get<std::size_t>(), std::move(*bytes)};
+}
+
 What readSave(const Json& m) {
   Save save{std::nullopt, m.value("replace", false)};
   if (m.contains("path")) save.path = m["path"].get<std::string>();
@@ -180,6 +187,11 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
       {"adopt", [](const Json& m) -> What { return Adopt{integer(m, "rev"), m["index"].get<int>()}; }},
       {"face_up", readFaceUp},
       {"sketch", readSketch},
+      {"upload", readUpload},
+      {"import",
+       [](const Json& m) -> What {
+         return Import{m.value("path", std::string()), m.value("as", std::string()), m.value("replace", false)};
+       }},
       {"list", [](const Json& m) -> What { return List{m.value("path", std::string()), m.value("meshes", false)}; }},
       {"gallery", [](const Json&) -> What { return Gallery{}; }}};
   return all;
@@ -217,7 +229,7 @@ bool isOneOf(const Command& command) {
 
 }  // namespace
 
-bool interrupts(const Command& command) { return !isOneOf<Hello, Prove, Drag, Release, Save, Export, List, Gallery, Gone, Found>(command); }
+bool interrupts(const Command& command) { return !isOneOf<Hello, Prove, Drag, Release, Save, Export, Upload, List, Gallery, Gone, Found>(command); }
 
 bool endsHold(const Command& command) { return isOneOf<Stop, Cancel, Undo, Gone>(command); }
 

@@ -183,6 +183,18 @@ struct Sketch {
   double from = 0;           ///< s, when the curve begins
   std::vector<Vec3> places;  ///< m, along the curve
 };
+/// A part of a file that the page has, for Import.
+struct Upload {
+  std::string name;    ///< of the file, without folders
+  std::size_t at = 0;  ///< bytes of it that came before; 0: a new file
+  std::string bytes;
+};
+/// A glTF file becomes a scene, which is opened; an OBJ file is looked at, and put into the folder where it was uploaded.
+struct Import {
+  std::string path;      ///< relative to the folder; empty: the file that was uploaded
+  std::string as;        ///< of glTF without physics: "hull", "mesh", "box" or "sphere"; empty: its physics
+  bool replace = false;  ///< even where what is open has not been saved
+};
 struct List {
   std::string path;     ///< a folder
   bool meshes = false;  ///< mesh files in place of scenes
@@ -201,7 +213,7 @@ struct Command {
   std::int64_t id = 0;  ///< 0: nobody waits for an answer
   std::variant<Hello, Prove, Grab, GrabNail, Drag, Release, Cancel, Undo, Redo, Stop, MeetNails, MakeNail, SetNail, NailOn,
                Unnail, KeepSequence, SetControls, SetNumbers, Try, AddBody, RemoveBody, CopyBody, RenameBody, NewScene, Open, Save, Export,
-               Why, Alternatives, TakeRemedy, Adopt, FaceUp, Sketch, List, Gallery, Gone, Found>
+               Why, Alternatives, TakeRemedy, Adopt, FaceUp, Sketch, Upload, Import, List, Gallery, Gone, Found>
       what;  ///< what it asks for
 };
 

@@ -201,6 +201,7 @@ void Worker::perform(const Asker& asker, const Cancel& cancel) {
 
 void Worker::perform(const Asker& asker, const Gone&) {
   tabs_.remove(asker.socket);
+  uploads_.erase(asker.socket);
   if (hold_ && hold_->socket == asker.socket) cancelHold({});
   if (tried_ == asker.socket) endTry(), sayMotion({}, session().last(), false, false);
 }

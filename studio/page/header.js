@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The bar on top: file menu, what is open, undo and redo by name, save; and the tools beside the view.
 
-import { additions, fileFrom, nameOfFile } from './build.js';
+import { additions } from './build.js';
 import { byId, el } from './dom.js';
 import { exportDialog } from './dialogs/export.js';
 import { meshDialog, openDialog } from './dialogs/open.js';
@@ -54,7 +54,7 @@ function showMenu(store, commands, gesture, pictures) {
   const menu = byId('menu');
   /** @type {[string, () => void][]} */
   const rows = [
-    ['New scene', () => void commands.newScene()], ['Open…', () => void openDialog(commands)], ['Save', () => void commands.save()], ['Save as…', () => void commands.saveAs()], ['Export…', () => void exportDialog(store, commands, pictures)],
+    ['New scene', () => void commands.newScene()], ['Open…', () => void openDialog(commands)], ['Save', () => void commands.save()], ['Save as…', () => void commands.saveAs()], ['Import…', () => void commands.importFile()], ['Export…', () => void exportDialog(store, commands, pictures)],
     ['Move to…', () => void moveDialog(store, gesture)], ['Motion as a table', () => void tableDialog(store)], ['Keys', () => void keysDialog(store)],
   ];
   for (const [name, act] of rows) {
@@ -81,17 +81,15 @@ function choice(store, name, key, options) {
 /** What can be added, by a press on a surface. @param {import('./store.js').Store<State>} store @param {import('./commands.js').Commands} commands */
 function showAdding(store, commands) {
   const menu = byId('add-menu'), add = byId('add');
-  const begin = (/** @type {number} */ adding, /** @type {string} */ name, mesh = '') => {
-    store.set({ adding, mesh, selected: -1, notice: { message: `Press where the ${name} is to stand; Enter: in the middle; Esc: nowhere.`, key: 'adding' } });
-    byId('overlay').focus();
-  };
+  const begin = (/** @type {number} */ adding, /** @type {string} */ name, mesh = '') => commands.beginAdding(adding, name, mesh);
   const row = (/** @type {string} */ name, /** @type {() => void} */ act) => el('button', { type: 'button', class: 'row', onclick: () => (menu.hidePopover(), act()) }, name);
   menu.append(...additions.map(([name], i) => row(name, () => begin(i, name.toLowerCase()))), row('Mesh file…', async () => {
     const file = await meshDialog(commands);
-    if (file) begin(additions.length, nameOfFile(file), fileFrom(file, store.state.document?.path ?? null));
+    if (file) commands.addMesh(file);
   }));
   store.on(['document', 'connected'], ({ document, connected }) => (add.hidden = connected !== 'open' || !document?.open));
   store.on(['adding'], ({ adding, notice }) => {
+    if (adding >= 0) byId('overlay').focus();
     byId('overlay').classList.toggle('adding', adding >= 0);
     if (adding < 0 && notice?.key === 'adding') store.set({ notice: null });
   });
