@@ -128,6 +128,10 @@ What readUpload(const Json& m) {
   return Upload{m["name"].get<std::string>(), m["at"].get<std::size_t>(), std::move(*bytes)};
 }
 
+What readImport(const Json& m) {
+  return Import{m.value("path", std::string()), m.value("as", std::string()), m.value("replace", false)};
+}
+
 What readSave(const Json& m) {
   Save save{std::nullopt, m.value("replace", false)};
   if (m.contains("path")) save.path = m["path"].get<std::string>();
@@ -188,10 +192,7 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
       {"face_up", readFaceUp},
       {"sketch", readSketch},
       {"upload", readUpload},
-      {"import",
-       [](const Json& m) -> What {
-         return Import{m.value("path", std::string()), m.value("as", std::string()), m.value("replace", false)};
-       }},
+      {"import", readImport},
       {"list", [](const Json& m) -> What { return List{m.value("path", std::string()), m.value("meshes", false)}; }},
       {"gallery", [](const Json&) -> What { return Gallery{}; }}};
   return all;

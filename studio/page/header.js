@@ -63,6 +63,7 @@ function showMenu(store, commands, gesture, pictures) {
       act();
     } }, name));
   }
+  goThrough(menu, byId('file'));
   menu.append(choice(store, 'Paths', 'showBefore', [['none', 'of now alone'], ['opened', 'and as opened'], ['saved', 'and as saved']]),
     choice(store, 'Dots a second', 'dots', [[24, '24'], [30, '30'], [60, '60'], [0, 'none']]),
     choice(store, 'Drawing', 'quality', [['high', 'fine'], ['low', 'fast']]),
@@ -78,6 +79,23 @@ function choice(store, name, key, options) {
   return el('label', { class: 'choice' }, name, select);
 }
 
+/** Arrow keys go through a menu, Escape leaves it. @param {HTMLElement} menu @param {HTMLElement} opener */
+function goThrough(menu, opener) {
+  const rows = () => [...menu.querySelectorAll('button, select')].map((one) => /** @type {HTMLElement} */ (one));
+  menu.addEventListener('toggle', (event) => {
+    if (/** @type {ToggleEvent} */ (event).newState === 'open') rows()[0]?.focus();
+  });
+  menu.addEventListener('keydown', (event) => {
+    const all = rows(), at = all.indexOf(/** @type {HTMLElement} */ (document.activeElement));
+    const next = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: all.length - 1 }[event.key];
+    if (event.key !== 'Tab') event.stopPropagation();  // no key of the view
+    if (event.key === 'Escape') opener.focus();
+    if (next === undefined || document.activeElement?.tagName === 'SELECT') return;
+    event.preventDefault();
+    all[(next + all.length) % all.length]?.focus();
+  });
+}
+
 /** What can be added, by a press on a surface. @param {import('./store.js').Store<State>} store @param {import('./commands.js').Commands} commands */
 function showAdding(store, commands) {
   const menu = byId('add-menu'), add = byId('add');
@@ -87,6 +105,7 @@ function showAdding(store, commands) {
     const file = await meshDialog(commands);
     if (file) commands.addMesh(file);
   }));
+  goThrough(menu, add);
   store.on(['document', 'connected'], ({ document, connected }) => (add.hidden = connected !== 'open' || !document?.open));
   store.on(['adding'], ({ adding, notice }) => {
     if (adding >= 0) byId('overlay').focus();

@@ -25,6 +25,7 @@ import { showScene } from './panels/scene.js';
 import { showPlayer } from './player.js';
 import { Sketching } from './sketching.js';
 import { makeStage } from './stage.js';
+import { speak } from './speech.js';
 import { initialState, Store } from './store.js';
 import { addTestHooks } from './test_hooks.js';
 import { TimeLine } from './timeline.js';
@@ -82,6 +83,7 @@ function start() {
   showHeader(store, commands, gesture, { picture, compose });
   showNotices(store, { takeRemedy: (name) => void commands.takeRemedy(name) });
   showReadout(store);
+  speak(store);
   showBodies(store);
   const facing = new Facing({ store, view, commands });
   showBody(store, commands, facing);
