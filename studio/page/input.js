@@ -55,7 +55,7 @@ export function listenToPointer({ store, gesture, facing, sketching, commands, o
   const heard = { x: NaN, y: NaN, time: 0 };
   /** @param {PointerEvent} event */
   const follow = (event) => {
-    gesture.snapTo(event.ctrlKey || event.metaKey, event.shiftKey);
+    gesture.snapTo(event.ctrlKey || event.metaKey, event.shiftKey, event.altKey);
     Object.assign(heard, { x: event.offsetX, y: event.offsetY, time: event.timeStamp });
     gesture.move(event.offsetX, event.offsetY);
   };
@@ -93,7 +93,7 @@ export function listenToPointer({ store, gesture, facing, sketching, commands, o
   });
   canvas.addEventListener('pointerleave', () => store.state.gesture.state === 'idle' && store.set({ hover: null }));
   canvas.addEventListener('contextmenu', (event) => event.preventDefault());
-  window.addEventListener('blur', () => gesture.snapTo(false, false));
+  window.addEventListener('blur', () => gesture.snapTo(false, false, false));
   window.addEventListener('blur', () => store.state.gesture.nailing && gesture.put({ nailing: false }));
   store.on(['gesture'], ({ gesture: now }) => {
     canvas.classList.toggle('closed-hand', now.state === 'dragging' || now.state === 'pressed');
@@ -117,8 +117,12 @@ export function listenToPointer({ store, gesture, facing, sketching, commands, o
 export function listenToKeys({ store, gesture, facing, sketching, commands, frame, overlay, view }) {
   const typing = /** @type {HTMLInputElement} */ (byId('typing'));
   for (const kind of /** @type {const} */ (['keydown', 'keyup'])) {
-    window.addEventListener(kind, ({ key, ctrlKey, metaKey, shiftKey }) => {
+    window.addEventListener(kind, (event) => {
+      const { key, ctrlKey, metaKey, shiftKey } = event;
       if (['Control', 'Meta', 'Shift'].includes(key)) gesture.snapTo(ctrlKey || metaKey, shiftKey);
+      if (key !== 'Alt' || store.state.gesture.state !== 'dragging') return;
+      gesture.snapTo(event.ctrlKey || event.metaKey, event.shiftKey, kind === 'keydown');
+      event.preventDefault();  // no menu of the browser
     });
   }
   window.addEventListener('keydown', (event) => {

@@ -18,7 +18,7 @@ export function showReadout(store) {
     const [words, kind] = standing(state);
     readout.replaceChildren(
       el('strong', { class: 'cut' }, body.name), el('span', { class: 'dim' }, `${at.toFixed(3)} s`), el('span', { class: 'dim' }, `${x} ${y} ${z} m`),
-      ...(words ? [el('span', { class: kind }, words)] : []), ...(gesture.snap ? [el('span', { class: 'dim' }, gesture.turn ? `steps of ${Math.round((gesture.snap * 180) / Math.PI * 10) / 10}°` : `steps of ${lengthText(gesture.snap)}`)] : []), ...(gesture.axis ? [el('span', { class: 'dim' }, `along ${axisText(gesture.axis)}`)] : []));
+      ...(words ? [el('span', { class: kind }, words)] : []), ...(gesture.snap ? [el('span', { class: 'dim' }, gesture.turn ? `steps of ${Math.round((gesture.snap * 180) / Math.PI * 10) / 10}°` : `steps of ${lengthText(gesture.snap)}`)] : []), ...(gesture.snapOn ? [el('span', { class: 'dim' }, `to: ${gesture.snapOn}`)] : []), ...(gesture.axis ? [el('span', { class: 'dim' }, `along ${axisText(gesture.axis)}`)] : []));
   });
 }
 

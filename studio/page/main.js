@@ -23,6 +23,7 @@ import { showNumbers } from './panels/numbers.js';
 import { showOthers } from './panels/others.js';
 import { showScene } from './panels/scene.js';
 import { showPlayer } from './player.js';
+import { snapped } from './snap.js';
 import { Sketching } from './sketching.js';
 import { makeStage } from './stage.js';
 import { speak } from './speech.js';
@@ -68,7 +69,7 @@ function start() {
     listener: listener({ store, gesture: () => gesture, opened: () => frame(-1, true), recovered: (steps, repairs) => commands.tellRecovered(steps, repairs), drawn: () => commands.tellSketch() }),
   });
   gesture = new Gesture({
-    store, connection, space: { touched: (hit) => touchedAt(store.state, hit), ray: (x, y) => view.camera.ray(x, y), project: (p) => [view.camera.project(p)[0], view.camera.project(p)[1]], camera: () => view.camera.axes() },
+    store, connection, space: { touched: (hit) => touchedAt(store.state, hit), snapped: (hit, x, y) => snapped(view, store.state, hit, x, y), ray: (x, y) => view.camera.ray(x, y), project: (p) => [view.camera.project(p)[0], view.camera.project(p)[1]], camera: () => view.camera.axes() },
     select: (hit) => {
       if (!hit) return;
       store.set({ selected: hit.body, selectedNail: hit.kind === 'nail' ? (hit.nail ?? -1) : -1, ...(hit.kind === 'handle' || hit.kind === 'body' ? {} : { time: hit.time }) });

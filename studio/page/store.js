@@ -6,7 +6,7 @@
 /** @type {import('./types.js').GestureState} */
 export const idleGesture = {
   state: 'idle', number: 0, hit: null, target: null, turn: null, axis: '', seq: 0, answered: -1, settlingShown: false,
-  nailing: false, snap: 0,
+  nailing: false, snap: 0, snapOn: '',
 };
 
 /** What belongs to one scene, as it is before anything of the scene is there: nothing of another is kept.

@@ -63,7 +63,7 @@
 /** The gesture under way, as the drawing parts see it.
  * @typedef {{state: 'idle' | 'pressed' | 'dragging' | 'typing' | 'settling', number: number, hit: Hit | null,
  *    target: Vec3 | null, turn: Quat | null, axis: string, seq: number, answered: number, settlingShown: boolean,
- *    nailing: boolean, snap: number}} GestureState  snap: steps of the target, m or rad; 0: none */
+ *    nailing: boolean, snap: number, snapOn: string}} GestureState  snap: steps of the target, m or rad; 0: none; snapOn: the mark or surface that it went to */
 
 /** @typedef {'connecting' | 'loading' | 'open' | 'lost' | 'ended'} Connected */
 /** @typedef {{connected: Connected, progress: string, folder: string, document: DocumentState | null,
