@@ -29,7 +29,7 @@ std::vector<std::string> filesOf(const std::string& path) {
 int main(int argc, char** argv) try {
   const carom::fuzz::Target* target = argc < 3 ? nullptr : carom::fuzz::targetNamed(argv[1]);
   if (target == nullptr) {
-    std::fprintf(stderr, "usage: fuzz_replay scene|obj|gltf <file or folder>...\n");
+    std::fprintf(stderr, "usage: fuzz_replay scene|obj|gltf|protocol <file or folder>...\n");
     return 2;
   }
   std::size_t count = 0;

@@ -16,8 +16,9 @@ struct Target {
 void readScene(std::string_view bytes);  ///< document -> text -> document, mass properties
 void readObj(std::string_view bytes);    ///< OBJ -> triangles -> mesh and hull
 void readGltf(std::string_view bytes);   ///< glTF -> triangles -> mesh and hull; glTF -> bodies
+void readProtocol(std::string_view bytes);  ///< a message of a page of the studio
 
-inline constexpr Target kTargets[] = {{"scene", readScene}, {"obj", readObj}, {"gltf", readGltf}};
+inline constexpr Target kTargets[] = {{"scene", readScene}, {"obj", readObj}, {"gltf", readGltf}, {"protocol", readProtocol}};
 
 /// Null for a name that is none of theirs.
 constexpr const Target* targetNamed(std::string_view name) {

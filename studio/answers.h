@@ -51,9 +51,16 @@ std::string alternativesMessage(const Findings& found, std::int64_t rev);
 std::string alternativeMembers(const Findings& found, std::size_t index, std::int64_t rev);
 /// How far the search for a face that is up has come.
 std::string faceUpMessage(const Findings& found, std::int64_t rev);
+/// How far a path has come along a drawn curve.
+std::string sketchMessage(const Findings& found, std::int64_t rev);
 /// That no answer comes to such a question any more.
 std::string cancelledMessage(const std::string& type, std::int64_t rev);
 
+/// That so many bytes of a file are here.
+std::string uploadedMessage(std::size_t bytes);
+/// What came of an import.
+struct ImportedFile;
+std::string importedMessage(const ImportedFile& imported);
 std::string savedMessage(const std::string& path, std::int64_t rev);
 /// `recent`: the scenes of the workspace that were opened last.
 std::string filesMessage(const std::string& path, const std::vector<ListedFile>& files,

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What was found in the background, as messages.
+// What was found in the background, and what was imported, as messages.
 #include <cmath>
 
 #include "formats/json/json.hpp"
 #include "studio/answers.h"
 #include "studio/findings.h"
+#include "studio/imports.h"
 
 namespace carom::studio {
 
@@ -46,6 +47,16 @@ std::string alternativeMembers(const Findings& found, std::size_t index, std::in
 std::string faceUpMessage(const Findings& found, std::int64_t rev) {
   const std::string& message = found.problem.empty() ? found.face.message : found.problem;
   return foundText({{"type", "face_up"}, {"rev", rev}, {"more", found.more}, {"tried", found.face.tried}, {"found", found.face.content.has_value()}, {"message", message}});
+}
+
+std::string sketchMessage(const Findings& found, std::int64_t rev) {
+  return foundText({{"type", "sketch"}, {"rev", rev}, {"more", found.more}, {"message", found.problem}});
+}
+
+std::string uploadedMessage(std::size_t bytes) { return foundText({{"type", "uploaded"}, {"bytes", bytes}}); }
+
+std::string importedMessage(const ImportedFile& imported) {
+  return foundText({{"type", "imported"}, {"path", imported.path}, {"mesh", imported.mesh}, {"warnings", imported.warnings}});
 }
 
 std::string cancelledMessage(const std::string& type, std::int64_t rev) {

@@ -6,6 +6,7 @@
 
 #include "adjoint/simulate/simulate.h"
 #include "ode_bridge/ode_contacts.h"
+#include "studio/sketch.h"
 
 namespace carom::studio {
 namespace {
@@ -66,6 +67,19 @@ void findFaceUpFor(Mailbox& mailbox, std::int64_t question, const SessionSnapsho
       put(mailbox, findings, stop);
     };
     findings.face = findFaceUp(snapshot, contacts, wanted, tell, stop);
+  });
+}
+
+void findSketchFor(Mailbox& mailbox, std::int64_t question, const SessionSnapshot& snapshot, const Sketch& wanted,
+                   const std::stop_token& stop) {
+  answering(mailbox, question, stop, [&](Findings& findings) {
+    OdeContacts contacts(snapshot.content.scene);
+    findings.more = true;
+    const auto tell = [&](const std::shared_ptr<const Motion>& motion) {
+      findings.first = motion;
+      put(mailbox, findings, stop);
+    };
+    findings.fitted = fitSketch(snapshot, contacts, wanted, tell, stop);
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct Findings {
   SessionAlternatives others;                             ///< other motions that meet the same
   std::vector<std::shared_ptr<const MotionView>> motions;  ///< of each of them
   FaceUpFound face;                                        ///< a body with a face up
+  std::shared_ptr<const Motion> first;                     ///< the first answer to a sketch
+  std::optional<SessionContent> fitted;                    ///< the scene whose path goes along it, with its nails
 };
 
 /// Puts what would help into the mailbox, again and again as it is found out, until `more` is false. Stopped: nothing any more.
@@ -32,6 +35,9 @@ void findAlternatives(Mailbox& mailbox, std::int64_t question, const SessionSnap
                       const std::stop_token& stop);
 /// The same with a body with a face up: the number of tries again and again, the scene at the end.
 void findFaceUpFor(Mailbox& mailbox, std::int64_t question, const SessionSnapshot& snapshot, const FaceUp& wanted,
+                   const std::stop_token& stop);
+/// The same with a path along a drawn curve: the first answer, then the scene.
+void findSketchFor(Mailbox& mailbox, std::int64_t question, const SessionSnapshot& snapshot, const Sketch& wanted,
                    const std::stop_token& stop);
 
 }  // namespace carom::studio

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "formats/base/base64.hpp"
 #include "formats/documents/scene_reader.hpp"
 #include "formats/json/json.hpp"
 
@@ -115,6 +116,22 @@ What readFaceUp(const Json& m) {
   return face;
 }
 
+What readSketch(const Json& m) {
+  Sketch sketch{integer(m, "rev"), m["body"].get<std::string>(), m["from"].get<double>(), {}};
+  for (const Json& place : m["places"]) sketch.places.push_back(readVector(place));
+  return sketch;
+}
+
+What readUpload(const Json& m) {
+  std::optional<std::string> bytes = fromBase64(m["data"].get<std::string>());
+  if (!bytes) fail("/data", "other text", "bytes in base64 (RFC 4648)");
+  return Upload{m["name"].get<std::string>(), m["at"].get<std::size_t>(), std::move(*bytes)};
+}
+
+What readImport(const Json& m) {
+  return Import{m.value("path", std::string()), m.value("as", std::string()), m.value("replace", false)};
+}
+
 What readSave(const Json& m) {
   Save save{std::nullopt, m.value("replace", false)};
   if (m.contains("path")) save.path = m["path"].get<std::string>();
@@ -147,7 +164,7 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
          return NailOn{nailOf(m), m["on"].get<bool>()};
        }},
       {"keep_sequence", [](const Json& m) -> What { return KeepSequence{m["on"].get<bool>()}; }},
-      {"unnail", [](const Json& m) -> What { return Unnail{nailOf(m)}; }},
+      {"unnail", [](const Json& m) -> What { return Unnail{m.value("nail", 0), m.value("sketch", std::string())}; }},
       {"controls",
        [](const Json& m) -> What {
          return SetControls{integer(m, "rev"), compactText(m["controls"])};
@@ -173,6 +190,9 @@ const std::map<std::string, What (*)(const Json&)>& readers() {
       {"remedy", [](const Json& m) -> What { return TakeRemedy{integer(m, "rev"), m["name"].get<std::string>()}; }},
       {"adopt", [](const Json& m) -> What { return Adopt{integer(m, "rev"), m["index"].get<int>()}; }},
       {"face_up", readFaceUp},
+      {"sketch", readSketch},
+      {"upload", readUpload},
+      {"import", readImport},
       {"list", [](const Json& m) -> What { return List{m.value("path", std::string()), m.value("meshes", false)}; }},
       {"gallery", [](const Json&) -> What { return Gallery{}; }}};
   return all;
@@ -210,7 +230,7 @@ bool isOneOf(const Command& command) {
 
 }  // namespace
 
-bool interrupts(const Command& command) { return !isOneOf<Hello, Prove, Drag, Release, Save, Export, List, Gallery, Gone, Found>(command); }
+bool interrupts(const Command& command) { return !isOneOf<Hello, Prove, Drag, Release, Save, Export, Upload, List, Gallery, Gone, Found>(command); }
 
 bool endsHold(const Command& command) { return isOneOf<Stop, Cancel, Undo, Gone>(command); }
 

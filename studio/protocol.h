@@ -89,6 +89,7 @@ struct KeepSequence {
 };
 struct Unnail {
   int nail = 0;
+  std::string sketch;  ///< notes of the nails of a sketch, which go together; empty: one nail
 };
 /// All controls, from now on.
 struct SetControls {
@@ -175,6 +176,25 @@ struct FaceUp {
   std::optional<Vec2> place = {};  ///< m, where its centre of mass is then; none: anywhere
   bool nail = false;            ///< that is held from here on
 };
+/// Fits the path of a body to a drawn curve.
+struct Sketch {
+  std::int64_t rev = 0;
+  std::string body;          ///< its name
+  double from = 0;           ///< s, when the curve begins
+  std::vector<Vec3> places;  ///< m, along the curve
+};
+/// A part of a file that the page has, for Import.
+struct Upload {
+  std::string name;    ///< of the file, without folders
+  std::size_t at = 0;  ///< bytes of it that came before; 0: a new file
+  std::string bytes;
+};
+/// A glTF file becomes a scene, which is opened; an OBJ file is looked at, and put into the folder where it was uploaded.
+struct Import {
+  std::string path;      ///< relative to the folder; empty: the file that was uploaded
+  std::string as;        ///< of glTF without physics: "hull", "mesh", "box" or "sphere"; empty: its physics
+  bool replace = false;  ///< even where what is open has not been saved
+};
 struct List {
   std::string path;     ///< a folder
   bool meshes = false;  ///< mesh files in place of scenes
@@ -193,7 +213,7 @@ struct Command {
   std::int64_t id = 0;  ///< 0: nobody waits for an answer
   std::variant<Hello, Prove, Grab, GrabNail, Drag, Release, Cancel, Undo, Redo, Stop, MeetNails, MakeNail, SetNail, NailOn,
                Unnail, KeepSequence, SetControls, SetNumbers, Try, AddBody, RemoveBody, CopyBody, RenameBody, NewScene, Open, Save, Export,
-               Why, Alternatives, TakeRemedy, Adopt, FaceUp, List, Gallery, Gone, Found>
+               Why, Alternatives, TakeRemedy, Adopt, FaceUp, Sketch, Upload, Import, List, Gallery, Gone, Found>
       what;  ///< what it asks for
 };
 

@@ -4,17 +4,9 @@
 #include <algorithm>
 
 #include "studio/refusal.h"
+#include "studio/throw_of.h"
 
 namespace carom::studio {
-namespace {
-
-/// The throw of a body, cheap beside the numbers that a person let vary.
-std::vector<Control> throwOf(const std::string& body) {
-  constexpr double kWeight = 0.2;
-  return {velocity(body).weighted(kWeight), angularVelocity(body).weighted(kWeight)};
-}
-
-}  // namespace
 
 Worker::Worker(Mailbox& mailbox, Workspace& workspace, Post post, WorkerOptions options)
     : mailbox_(mailbox), workspace_(workspace), options_(std::move(options)), tabs_(std::move(post)), recent_(options_.recent) {
@@ -209,6 +201,7 @@ void Worker::perform(const Asker& asker, const Cancel& cancel) {
 
 void Worker::perform(const Asker& asker, const Gone&) {
   tabs_.remove(asker.socket);
+  uploads_.erase(asker.socket);
   if (hold_ && hold_->socket == asker.socket) cancelHold({});
   if (tried_ == asker.socket) endTry(), sayMotion({}, session().last(), false, false);
 }

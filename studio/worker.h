@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -12,6 +13,7 @@
 #include "studio/autosave.h"
 #include "studio/background.h"
 #include "studio/findings.h"
+#include "studio/imports.h"
 #include "studio/limits.h"
 #include "studio/mailbox.h"
 #include "studio/open_scene.h"
@@ -111,6 +113,9 @@ class Worker {
   void perform(const Asker& asker, const TakeRemedy& take);
   void perform(const Asker& asker, const Adopt& adopt);
   void perform(const Asker& asker, const FaceUp& face);
+  void perform(const Asker& asker, const Sketch& sketch);
+  void perform(const Asker& asker, const Upload& upload);
+  void perform(const Asker& asker, const Import& import);
   void perform(const Asker& asker, const Found& found);
   void perform(const Asker& asker, const List& list);
   void perform(const Asker& asker, const Gallery& gallery);
@@ -130,9 +135,12 @@ class Worker {
   void sayChange(const Asker& asker, const SessionUpdate& update);
   template <class Make>
   void changeBodies(const Asker& asker, std::int64_t rev, const std::string& name, const Make& make);
+  void showTried(const Asker& asker, const MotionNews& news, const std::shared_ptr<const Motion>& motion);
   void endTry();
   template <class Find>
   void askInBackground(const Asker& asker, std::int64_t rev, const std::string& type, const Find& find);
+  void takeFaceUp(const Asker& asker, const Findings& found);
+  void takeSketch(const Asker& asker, const Findings& found);
   void endQuestion();
   const Findings& findingsFor(const Asker& asker, std::int64_t rev, const std::string& type);
   std::string newName() const;
@@ -176,6 +184,7 @@ class Worker {
   std::shared_ptr<const SceneView> scene_view_;
   std::optional<Question> question_;
   std::int64_t questions_ = 0;
+  std::map<SocketId, UploadedFile> uploads_;
   Background background_;  // last: its job ends before the others go
 };
 

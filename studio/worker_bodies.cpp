@@ -63,15 +63,22 @@ void Worker::perform(const Asker& asker, const Try& what) {
   requireRev(what.set.rev);
   const SessionContent content = scene_->edited(what.set.edits);
   requireRoom(content.scene, session.scene());
-  SessionUpdate update = session.last();
-  update.motion = scene_->simulated(content);
+  const std::shared_ptr<const Motion> motion = scene_->simulated(content);
+  const bool reshaped = std::ranges::any_of(what.set.edits, [](const auto& edit) { return edit.first.find("/shape") != std::string::npos; });
+  if (reshaped) sayScene({}, *motion);
+  showTried(asker, {rev_, what.gesture, what.seq, false, false, nullptr, nullptr}, motion);
+}
+
+/// What is shown and not kept; `news` gets its update.
+void Worker::showTried(const Asker& asker, const MotionNews& news, const std::shared_ptr<const Motion>& motion) {
+  SessionUpdate update = session().last();
+  update.motion = motion;
   update.reached = true;
   tried_ = asker.socket;
-  const bool reshaped = std::ranges::any_of(what.set.edits, [](const auto& edit) { return edit.first.find("/shape") != std::string::npos; });
-  if (reshaped) sayScene({}, *update.motion);
-  view(update.motion);
-  const MotionNews news{rev_, what.gesture, what.seq, false, false, &update, nullptr};
-  tabs_.showMotion(asker.socket, asker.id, view_, motionMembers(news), false);
+  view(motion);
+  MotionNews told = news;
+  told.update = &update;
+  tabs_.showMotion(asker.socket, asker.id, view_, motionMembers(told), false);
 }
 
 /// Back to what is, after what was tried.

@@ -145,7 +145,14 @@ void Worker::perform(const Asker& asker, const NailOn& nail) {
 
 void Worker::perform(const Asker& asker, const Unnail& nail) {
   EditSession& session = sessionAtRest(asker);
-  session.unnail(NailId{nail.nail});
+  if (nail.sketch.empty()) {
+    session.unnail(NailId{nail.nail});
+  } else {
+    SessionContent content = session.content();
+    const auto drawn = [&](const auto& one) { return one.second.soft && one.second.notes == nail.sketch; };
+    if (std::erase_if(content.nails, drawn) == 0) throw InputError("/sketch", "found no sketch '" + nail.sketch + "'");
+    session.setContent(content, "removal of '" + nail.sketch + "'");
+  }
   sayChange(asker, session.last());
 }
 

@@ -39,18 +39,45 @@ void Worker::perform(const Asker& asker, const FaceUp& face) {
                   });
 }
 
+void Worker::perform(const Asker& asker, const Sketch& sketch) {
+  bodyIndex(session().scene(), sketch.body);
+  askInBackground(asker, sketch.rev, "sketch",
+                  [sketch](Mailbox& mailbox, std::int64_t number, const SessionSnapshot& snapshot, const std::stop_token& stop) {
+                    findSketchFor(mailbox, number, snapshot, sketch, stop);
+                  });
+}
+
+void Worker::takeFaceUp(const Asker& asker, const Findings& found) {
+  if (found.face.content) {
+    session().setContent(*found.face.content, "a face up");
+    sayChange({}, session().last());
+  }
+  tabs_.tell(asker.socket, answering(asker.id, faceUpMessage(found, rev_)));
+}
+
+/// The first answer is shown and not kept; the last one is a step.
+void Worker::takeSketch(const Asker& asker, const Findings& found) {
+  if (found.fitted) {
+    tried_.reset();
+    session().setContent(*found.fitted, "sketch of '" + found.fitted->nails.back().second.body + "'");
+    sayScene({}, session().motion());
+    sayChange({}, session().last());
+  } else if (found.more) {
+    showTried({asker.socket, 0}, {rev_, 0, -1, true, false, nullptr, nullptr}, found.first);
+  } else {
+    endTry();
+    sayMotion({}, session().last(), false, false);
+  }
+  tabs_.tell(asker.socket, answering(asker.id, sketchMessage(found, rev_)));
+}
+
 void Worker::perform(const Asker&, const Found& found) {
   if (!question_ || question_->answered || found.what->question != question_->number) return;
   question_->found = found.what;
   question_->answered = !found.what->more;
   const auto& [asker, type, number, rev, answered, what] = *question_;
-  if (type == "face_up") {
-    if (what->face.content) {
-      session().setContent(*what->face.content, "a face up");
-      sayChange({}, session().last());
-    }
-    return tabs_.tell(asker.socket, answering(asker.id, faceUpMessage(*what, rev_)));
-  }
+  if (type == "face_up") return takeFaceUp(asker, *what);
+  if (type == "sketch") return takeSketch(asker, *what);
   if (type == "why") return tabs_.tell(asker.socket, answering(asker.id, whyMessage(*what, rev)));
   for (std::size_t i = 0; i < what->motions.size(); ++i) {
     auto view = std::make_shared<MotionView>(*what->motions[i]);
@@ -65,6 +92,7 @@ void Worker::endQuestion() {
   background_.cancel();
   if (!question_ || question_->answered) return;
   question_->answered = true;
+  if (question_->type == "sketch" && tried_) endTry(), sayMotion({}, session().last(), false, false);
   tabs_.tell(question_->asker.socket, answering(question_->asker.id, cancelledMessage(question_->type, question_->rev)));
 }
 

@@ -136,6 +136,10 @@ std::optional<ReadFile> readIn(int folder, const std::string& path, const std::s
   return read;
 }
 
+bool isMesh(const std::string& name) {
+  return std::ranges::any_of(kMeshes, [&](const char* ending) { return name.ends_with(ending); });
+}
+
 void requireScene(const std::string& path) {
   if (!path.ends_with(kScene) || path.ends_with(std::string("/") + kScene) || path == kScene)
     failAt(path, "found another ending, expected the name of a scene document, which ends in .json");
@@ -174,8 +178,7 @@ std::vector<ListedFile> Workspace::list(const std::string& path, bool meshes) co
     struct stat status {};
     if (name.starts_with('.') || ::fstatat(folder.get(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) continue;
     const bool is_folder = S_ISDIR(status.st_mode);
-    const auto ends = [&](const char* ending) { return name.ends_with(ending); };
-    const bool wanted = meshes ? std::ranges::any_of(kMeshes, ends) : ends(kScene);
+    const bool wanted = meshes ? isMesh(name) : name.ends_with(kScene);
     if (!is_folder && !(S_ISREG(status.st_mode) && wanted)) continue;
     found.push_back({path.empty() ? name : path + "/" + name, name, is_folder,
                      is_folder ? 0 : static_cast<std::uint64_t>(status.st_size), status.st_mtim.tv_sec, !is_folder && meshes});
@@ -200,10 +203,32 @@ std::string Workspace::folderOf(const std::string& path) const {
   return joined(folder_, slash == std::string::npos ? "" : path.substr(0, slash));
 }
 
+std::string Workspace::meshPath(const std::string& path) const {
+  const std::vector<std::string> parts = partsOf(path);
+  if (!isMesh(path)) failAt(path, "found another ending, expected the name of a mesh file: .obj, .gltf or .glb");
+  const Handle folder = openFolder(root_, path, parts, parts.size() - 1);
+  struct stat status {};
+  if (::fstatat(folder.get(), parts.back().c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) failBy(path, errno);
+  if (S_ISLNK(status.st_mode)) failBy(path, ELOOP);
+  if (!S_ISREG(status.st_mode)) failAt(path, "found something that is not a file, expected a file");
+  return joined(folder_, path);
+}
+
 FileStamp Workspace::save(const std::string& path, std::string_view text, const std::optional<FileStamp>& known,
                           bool replace) const {
-  const std::vector<std::string> parts = partsOf(path);
+  partsOf(path);
   requireScene(path);
+  return write(path, text, known, replace);
+}
+
+void Workspace::saveMesh(const std::string& path, std::string_view bytes) const {
+  if (!path.ends_with(".obj")) failAt(path, "found another ending, expected the name of a mesh file that ends in .obj");
+  write(path, bytes, std::nullopt, false);
+}
+
+FileStamp Workspace::write(const std::string& path, std::string_view text, const std::optional<FileStamp>& known,
+                           bool replace) const {
+  const std::vector<std::string> parts = partsOf(path);
   const Handle folder = openFolder(root_, path, parts, parts.size() - 1);
   const std::optional<ReadFile> there = readIn(folder.get(), path, parts.back());  // refuses links in any case
   if (there && !replace) {

@@ -68,6 +68,10 @@ class Workspace {
   std::vector<ListedFile> list(const std::string& path, bool meshes = false) const;
   /// Reads a scene document (.json).
   OpenedFile open(const std::string& path) const;
+  /// A mesh file (.obj, .gltf, .glb) as a path of this machine.
+  std::string meshPath(const std::string& path) const;
+  /// Writes a new mesh file (.obj) whole or not at all. Throws FileConflict where there is one.
+  void saveMesh(const std::string& path, std::string_view bytes) const;
   /// The folder of a file, as a path of this machine.
   std::string folderOf(const std::string& path) const;
 
@@ -77,6 +81,8 @@ class Workspace {
                  bool replace) const;
 
  private:
+  FileStamp write(const std::string& path, std::string_view text, const std::optional<FileStamp>& known, bool replace) const;
+
   std::string folder_;
   int root_ = -1;
 };

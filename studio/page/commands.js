@@ -1,41 +1,27 @@
 // SPDX-License-Identifier: MIT
 // What a person can do besides dragging: called by keys, buttons and menus alike.
 
+import { FileCommands } from './file_commands.js';
+import { additions, fileFrom, nameOfFile } from './build.js';
 import { tellChanges } from './messages.js';
-import { PlayHead } from './play_head.js';
+import { lengthText } from './number_field_text.js';
+import { curvesOf } from './overlay/sketches.js';
 import { hitAt } from './take.js';
 
 /** @typedef {import('./types.js').State} State */
 /** @typedef {import('./types.js').Constraint} Constraint */
 
-export class Commands extends PlayHead {
+export class Commands extends FileCommands {
   /** @param {{store: import('./store.js').Store<State>, connection: import('./connection.js').Connection,
    *    gesture: import('./gesture.js').Gesture, view: {frame: (body: number) => void},
    *    ask: (question: string, yes: string) => Promise<boolean>,
    *    choose: (question: string, choices: [string, string][]) => Promise<string>, askName: (suggested: string) => Promise<string | null>}} parts */
   constructor({ store, connection, gesture, view, ask, choose, askName }) {
-    super(store);
-    this.connection = connection;
+    super({ store, connection, choose, askName });
     this.gesture = gesture;
     this.view = view;
     this.ask = ask;
-    this.choose = choose;
-    this.askName = askName;
-    this.savingWaits = false;
-  }
-
-  /** Asks the server; says what went wrong. @param {string} type @param {object} members
-   * @returns {Promise<any>} null where it went wrong */
-  async tell(type, members = {}) {
-    try {
-      return await this.connection.request(type, members);
-    } catch (error) {
-      const { code, message } = /** @type {import('./connection.js').ServerError} */ (error);
-      if (code === 'conflict') throw error;
-      // that the server is gone has been said, with what that means
-      if (code !== 'lost' || this.store.state.notice?.key !== 'lost') this.store.set({ notice: { message, kind: 'red' } });
-      return null;
-    }
+    this.gotMesh = (/** @type {string} */ path) => this.addMesh(path);
   }
 
   async undo() {
@@ -89,54 +75,6 @@ export class Commands extends PlayHead {
     if (answer) this.gesture.ended('released', answer, false);
   }
 
-  /** Saves what is verified; in a gesture when that has ended. @param {string} [path] @param {boolean} [replace] @returns {Promise<boolean>} whether the file has it now */
-  async save(path, replace = false) {
-    const { document, gesture } = this.store.state;
-    if (!document?.open) return false;
-    if (gesture.state !== 'idle') {
-      this.savingWaits = true;
-      return false;
-    }
-    const where = path ?? document.path ?? (await this.askName(document.suggested ?? 'scene.json'));
-    if (!where) return false;
-    try {
-      const answer = await this.tell('save', { ...(path || !document.path ? { path: where } : {}), ...(replace ? { replace } : {}) });
-      if (answer) this.store.set({ notice: { message: `Saved ${answer.path}.` } });
-      return !!answer;
-    } catch (error) {
-      const what = await this.choose(/** @type {any} */ (error).message, [['replace', 'Replace the file'], ...(document.path === where ? [/** @type {[string, string]} */ (['theirs', 'Open the file as it is'])] : []), ['other', 'Save as…']]);
-      if (what === 'replace') return this.save(where, true);
-      if (what === 'theirs') await this.open({ path: where }, true);
-      return what === 'other' && this.saveAs();
-    }
-  }
-
-  /** A save that waited for the end of a gesture. */
-  saveIfWaiting() {
-    if (!this.savingWaits) return;
-    this.savingWaits = false;
-    void this.save();
-  }
-
-  async saveAs() {
-    const { document } = this.store.state, name = await this.askName(document?.path ?? document?.suggested ?? 'scene.json');
-    return !!name && this.save(name);
-  }
-
-  /** @param {{path: string, gallery?: boolean}} what @param {boolean} [replace] @returns {Promise<void>} */
-  async open(what, replace = false) {
-    this.store.set({ progress: `Opening ${what.path}…` });
-    try {
-      await this.tell('open', { ...what, ...(replace ? { replace } : {}) });
-    } catch (error) {
-      this.store.set({ progress: '' });
-      const how = await this.choose(/** @type {any} */ (error).message, [['lose', 'Open, and lose the steps'], ['save', 'Save, then open']]);
-      if (how === 'lose') return this.open(what, true);
-      if (how === 'save' && await this.save()) return this.open(what);
-    }
-    this.store.set({ progress: '' });
-  }
-
   /** Nails the selected body where it is. */
   async nailHere() {
     const { selected, document, motion, time } = this.store.state, body = document?.bodies[selected];
@@ -176,6 +114,23 @@ export class Commands extends PlayHead {
     const { up, place } = facing, nail = nailOnRelease ? { nail: true } : {};
     const members = { body: document.bodies[facing.body].name, up, ...(place ? { place: place.slice(0, 2) } : {}), ...nail };
     if (!await this.build('face_up', members)) this.store.set({ facing: null });
+  }
+
+  /** Looks for a path along the curve that was drawn. */
+  async sketchPath() {
+    const { sketch, document, motion } = this.store.state;
+    if (!sketch || !document) return;
+    this.store.set({ sketch: { ...sketch, searching: true }, before: motion, changesShown: false });
+    const members = { body: document.bodies[sketch.body].name, from: sketch.from, places: sketch.places };
+    if (!await this.build('sketch', members)) this.store.set({ sketch: null, before: null });
+  }
+
+  /** What came of a sketch. */
+  tellSketch() {
+    const { document } = this.store.state, curve = curvesOf((document?.nails ?? []).map((nail) => ({ nail }))).at(-1);
+    if (!curve) return;
+    const off = Math.max(...curve.map(({ nail }) => nail.error)), { body } = curve[0].nail.constraint;
+    this.store.set({ notice: { message: `'${body}' goes along the curve, at most ${lengthText(off)} off it.`, key: 'sketched', actions: [{ name: 'Undo', act: () => void this.undo() }] } });
   }
 
   /** Looks for other motions that meet the same. */
@@ -220,14 +175,14 @@ export class Commands extends PlayHead {
   }
 
   /** @param {import('./connection.js').ServerError & {body?: string, place?: import('./types.js').Vec3}} error */
-  tellOverlap({ code, message, body, place }) {
-    if (code === 'lost' && this.store.state.notice?.key === 'lost') return;
+  tellOverlap(error) {
+    const { body, place } = error;
     const { bodies } = this.store.state.document ?? { bodies: [] }, i = bodies.findIndex((one) => one.name === body);
     const there = { name: 'Put it where there is room', act: () => {
       this.store.set({ notice: null });
       void this.setValue(`/bodies/${i}/position`, place);
     } };
-    this.store.set({ notice: { message, kind: 'red', actions: place && i >= 0 ? [there] : [] } });
+    this.tellError(error, place && i >= 0 ? [there] : []);
   }
 
   /** The arrow of the selected body's velocity, where that is: at the start. */
@@ -237,21 +192,20 @@ export class Commands extends PlayHead {
     if (this.store.state.selected < 0) this.store.set({ notice: { message: 'Select a body: the arrow at its start is its velocity.' } });
   }
 
-  /** A scene with a floor and nothing else. @param {boolean} [replace] @returns {Promise<void>} */
-  async newScene(replace = false) {
-    try {
-      await this.connection.request('new', replace ? { replace } : {});
-    } catch (error) {
-      if (/** @type {any} */ (error).code !== 'conflict') return this.tellOverlap(/** @type {any} */ (error));
-      const how = await this.choose(/** @type {any} */ (error).message, [['lose', 'New scene, and lose the steps'], ['save', 'Save, then a new scene']]);
-      if (how === 'lose' || (how === 'save' && await this.save())) return this.newScene(how === 'lose');
-    }
-  }
-
   /** @param {object} body as in documents @param {import('./build.js').Surface | null} on */
   async addBody(body, on) {
     const material = this.store.state.document?.materials?.[0]?.name;
     await this.build('add_body', { body: { ...body, ...(material ? { material } : {}) }, ...(on ? { on } : {}) });
+  }
+
+  /** The next press puts this down. @param {number} adding @param {string} name @param {string} [mesh] its file, as the document names it */
+  beginAdding(adding, name, mesh = '') {
+    this.store.set({ adding, mesh, selected: -1, notice: { message: `Press where the ${name} is to stand; Enter: in the middle; Esc: nowhere.`, key: 'adding' } });
+  }
+
+  /** @param {string} file of the folder */
+  addMesh(file) {
+    this.beginAdding(additions.length, nameOfFile(file), fileFrom(file, this.store.state.document?.path ?? null));
   }
 
   /** @param {string} name */

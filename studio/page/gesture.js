@@ -8,13 +8,12 @@ import { gridOf, turnStep } from './grid.js';
 import { evaluate } from './number_field_text.js';
 import { idleGesture } from './store.js';
 import { gripOf, refusal, toolFor } from './take.js';
-import { nextAxis } from './tools/move.js';
+import { Move, nextAxis } from './tools/move.js';
 import { Turn } from './tools/turn.js';
 
 /** @typedef {import('./types.js').Hit} Hit */
 /** @typedef {import('./types.js').Vec3} Vec3 */
 /** @typedef {import('./take.js').Space} Space */
-/** @typedef {import('./tools/move.js').Move} Move */
 /** @typedef {{store: import('./store.js').Store<import('./types.js').State>, space: Space,
  *    connection: Pick<import('./connection.js').Connection, 'send' | 'request'>,
  *    select: (hit: Hit | null) => void, ended: (how: 'released' | 'cancelled', answer: any, nailed: boolean) => void,
@@ -42,7 +41,8 @@ export class Gesture {
     /** @type {[number, number]} */
     this.pointer = [0, 0];
     this.byKey = false;
-    this.grid = 0;  // of the grid, the steps in which targets go; 0: none
+    this.near = false;  // whether targets go to surfaces and marks
+    this.grid = 0;  // of the grid, the steps in which they go; 0: none
   }
 
   get now() {
@@ -92,7 +92,7 @@ export class Gesture {
     }
   }
 
-  /** By G or R: takes hold of the selected body where the play head is. @param {Hit} hit @param {'move' | 'turn'} tool */
+  /** By G or R: takes the selected body at the play head. @param {Hit} hit @param {'move' | 'turn'} tool */
   beginByKey(hit, tool) {
     if (this.now.state === 'settling') this.connection.send('stop');
     else if (this.now.state !== 'idle') return;
@@ -149,26 +149,27 @@ export class Gesture {
     this.store.set({ notice: { message: `The throw of '${body}' may change now.`, actions: [{ name: 'Undo', act: () => void this.connection.send('undo') }] } });
   }
 
-  /** Targets go to the grid, or a tenth of it, from here on. @param {boolean} on @param {boolean} fine */
-  snapTo(on, fine) {
+  /** Targets go to the grid, or a tenth of it, from here on; or to surfaces and marks. @param {boolean} on @param {boolean} fine @param {boolean} [near] */
+  snapTo(on, fine, near = this.near) {
     const grid = on ? (fine ? 0.1 : 1) : 0;
-    if (grid === this.grid) return;
-    this.grid = grid;
+    if (grid === this.grid && near === this.near) return;
+    [this.grid, this.near] = [grid, near];
     if (this.now.state === 'dragging') this.follow();
   }
 
   /** The hand is where the pointer is. */
   follow() {
     if (!this.tool) return;
-    const steps = this.now.hit?.handle === 'throw' ? 0 : this.grid;
-    this.tool.snap = steps * (this.tool instanceof Turn ? turnStep : gridOf(this.store.state.scene));
+    const { hit } = this.now, on = this.near && hit && hit.handle !== 'throw' && this.tool instanceof Move && this.space.snapped?.(hit, ...this.pointer);
+    if (on && this.tool instanceof Move) return this.offer(this.tool.put(on.place), on.name);
+    this.tool.snap = (hit?.handle === 'throw' ? 0 : this.grid) * (this.tool instanceof Turn ? turnStep : gridOf(this.store.state.scene));
     this.offer(this.tool instanceof Turn ? this.tool.target(this.pointer) : this.tool.target(this.space.ray(...this.pointer)));
   }
 
-  /** @param {import('./connection.js').DragTarget} target */
-  offer(target) {
+  /** @param {import('./connection.js').DragTarget} target @param {string} [snapOn] what it went to */
+  offer(target, snapOn = '') {
     this.sender?.offer(target);
-    this.put({ target: target.place, turn: target.orientation ?? null, seq: this.sender?.seq ?? 0, snap: this.tool?.snap ?? 0 });
+    this.put({ target: target.place, turn: target.orientation ?? null, seq: this.sender?.seq ?? 0, snap: this.tool?.snap ?? 0, snapOn });
   }
 
   /** A letter in a drag. @param {'x' | 'y' | 'z'} letter @param {boolean} plane */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The bar on top: file menu, what is open, undo and redo by name, save; and the tools beside the view.
 
-import { additions, fileFrom, nameOfFile } from './build.js';
+import { additions } from './build.js';
 import { byId, el } from './dom.js';
 import { exportDialog } from './dialogs/export.js';
 import { meshDialog, openDialog } from './dialogs/open.js';
@@ -54,7 +54,7 @@ function showMenu(store, commands, gesture, pictures) {
   const menu = byId('menu');
   /** @type {[string, () => void][]} */
   const rows = [
-    ['New scene', () => void commands.newScene()], ['Open…', () => void openDialog(commands)], ['Save', () => void commands.save()], ['Save as…', () => void commands.saveAs()], ['Export…', () => void exportDialog(store, commands, pictures)],
+    ['New scene', () => void commands.newScene()], ['Open…', () => void openDialog(commands)], ['Save', () => void commands.save()], ['Save as…', () => void commands.saveAs()], ['Import…', () => void commands.importFile()], ['Export…', () => void exportDialog(store, commands, pictures)],
     ['Move to…', () => void moveDialog(store, gesture)], ['Motion as a table', () => void tableDialog(store)], ['Keys', () => void keysDialog(store)],
   ];
   for (const [name, act] of rows) {
@@ -63,6 +63,7 @@ function showMenu(store, commands, gesture, pictures) {
       act();
     } }, name));
   }
+  goThrough(menu, byId('file'));
   menu.append(choice(store, 'Paths', 'showBefore', [['none', 'of now alone'], ['opened', 'and as opened'], ['saved', 'and as saved']]),
     choice(store, 'Dots a second', 'dots', [[24, '24'], [30, '30'], [60, '60'], [0, 'none']]),
     choice(store, 'Drawing', 'quality', [['high', 'fine'], ['low', 'fast']]),
@@ -78,20 +79,36 @@ function choice(store, name, key, options) {
   return el('label', { class: 'choice' }, name, select);
 }
 
+/** Arrow keys go through a menu, Escape leaves it. @param {HTMLElement} menu @param {HTMLElement} opener */
+function goThrough(menu, opener) {
+  const rows = () => [...menu.querySelectorAll('button, select')].map((one) => /** @type {HTMLElement} */ (one));
+  menu.addEventListener('toggle', (event) => {
+    if (/** @type {ToggleEvent} */ (event).newState === 'open') rows()[0]?.focus();
+  });
+  menu.addEventListener('keydown', (event) => {
+    const all = rows(), at = all.indexOf(/** @type {HTMLElement} */ (document.activeElement));
+    const next = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: all.length - 1 }[event.key];
+    if (event.key !== 'Tab') event.stopPropagation();  // no key of the view
+    if (event.key === 'Escape') opener.focus();
+    if (next === undefined || document.activeElement?.tagName === 'SELECT') return;
+    event.preventDefault();
+    all[(next + all.length) % all.length]?.focus();
+  });
+}
+
 /** What can be added, by a press on a surface. @param {import('./store.js').Store<State>} store @param {import('./commands.js').Commands} commands */
 function showAdding(store, commands) {
   const menu = byId('add-menu'), add = byId('add');
-  const begin = (/** @type {number} */ adding, /** @type {string} */ name, mesh = '') => {
-    store.set({ adding, mesh, selected: -1, notice: { message: `Press where the ${name} is to stand; Enter: in the middle; Esc: nowhere.`, key: 'adding' } });
-    byId('overlay').focus();
-  };
+  const begin = (/** @type {number} */ adding, /** @type {string} */ name, mesh = '') => commands.beginAdding(adding, name, mesh);
   const row = (/** @type {string} */ name, /** @type {() => void} */ act) => el('button', { type: 'button', class: 'row', onclick: () => (menu.hidePopover(), act()) }, name);
   menu.append(...additions.map(([name], i) => row(name, () => begin(i, name.toLowerCase()))), row('Mesh file…', async () => {
     const file = await meshDialog(commands);
-    if (file) begin(additions.length, nameOfFile(file), fileFrom(file, store.state.document?.path ?? null));
+    if (file) commands.addMesh(file);
   }));
+  goThrough(menu, add);
   store.on(['document', 'connected'], ({ document, connected }) => (add.hidden = connected !== 'open' || !document?.open));
   store.on(['adding'], ({ adding, notice }) => {
+    if (adding >= 0) byId('overlay').focus();
     byId('overlay').classList.toggle('adding', adding >= 0);
     if (adding < 0 && notice?.key === 'adding') store.set({ notice: null });
   });
@@ -99,7 +116,7 @@ function showAdding(store, commands) {
 
 /** @param {import('./store.js').Store<State>} store @param {import('./commands.js').Commands} commands */
 function showTools(store, commands) {
-  const move = button('tool-move', () => store.set({ tool: 'move' })), throwing = button('tool-throw', () => commands.aimThrow()), turn = button('tool-turn', () => store.set({ tool: 'turn' })), face = button('tool-face', () => store.set({ tool: 'face' }));
+  const move = button('tool-move', () => store.set({ tool: 'move' })), throwing = button('tool-throw', () => commands.aimThrow()), turn = button('tool-turn', () => store.set({ tool: 'turn' })), face = button('tool-face', () => store.set({ tool: 'face' })), pen = button('tool-pen', () => store.set({ tool: 'pen' }));
   button('tool-nail', () => void commands.nailHere());
   const nailing = button('nail-on-release', () => store.set({ nailOnRelease: !store.state.nailOnRelease }));
   const free = button('leave-rest-free', () => store.set(store.state.tool === 'turn' ? { turnLeavesPlace: !store.state.turnLeavesPlace } : { leaveRestFree: !store.state.leaveRestFree }));
@@ -108,6 +125,8 @@ function showTools(store, commands) {
     turn.setAttribute('aria-pressed', String(tool === 'turn'));
     throwing.setAttribute('aria-pressed', String(tool === 'throw'));
     face.setAttribute('aria-pressed', String(tool === 'face'));
+    pen.setAttribute('aria-pressed', String(tool === 'pen'));
+    byId('overlay').classList.toggle('pen', tool === 'pen');
     nailing.setAttribute('aria-pressed', String(nailOnRelease));
     free.setAttribute('aria-pressed', String(tool === 'turn' ? turnLeavesPlace : leaveRestFree));
     free.title = tool === 'turn' ? 'Turns leave the place free' : 'Drags along an axis leave the rest free';

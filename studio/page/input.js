@@ -7,7 +7,7 @@ import { byId } from './dom.js';
 import { keysDialog } from './dialogs/keys.js';
 import { openDialog } from './dialogs/open.js';
 
-/** @typedef {{store: import('./store.js').Store<import('./types.js').State>, gesture: import('./gesture.js').Gesture, facing: import('./facing.js').Facing,
+/** @typedef {{store: import('./store.js').Store<import('./types.js').State>, gesture: import('./gesture.js').Gesture, facing: import('./facing.js').Facing, sketching: import('./sketching.js').Sketching,
  *    commands: import('./commands.js').Commands, overlay: import('./overlay/overlay.js').Overlay,
  *    view: import('./view/view.js').View, frame: (body: number, anew?: boolean, side?: 'front' | 'side' | 'top') => void}} Parts */
 
@@ -24,14 +24,14 @@ function putDown({ store, commands, view }, x, y) {
 }
 
 /** @param {Parts} parts */
-export function listenToPointer({ store, gesture, facing, commands, overlay, view }) {
+export function listenToPointer({ store, gesture, facing, sketching, commands, overlay, view }) {
   const { canvas } = overlay, typing = /** @type {HTMLInputElement} */ (byId('typing'));
   let orbiting = false;
   /** Before the camera's own listener, so that a press on a thing does not turn it. @param {PointerEvent} event */
   const press = (event) => {
     canvas.focus();
     if (store.state.adding >= 0 && event.button === 0) return view.camera.enable(false), putDown({ store, commands, view }, event.offsetX, event.offsetY);
-    if (event.button === 0 && store.state.connected === 'open' && facing.press(event.offsetX, event.offsetY)) {
+    if (event.button === 0 && store.state.connected === 'open' && (facing.press(event.offsetX, event.offsetY) || sketching.press(event.offsetX, event.offsetY))) {
       view.camera.enable(false);
       return canvas.setPointerCapture(event.pointerId);
     }
@@ -45,7 +45,7 @@ export function listenToPointer({ store, gesture, facing, commands, overlay, vie
   };
   canvas.addEventListener('pointerdown', press, { capture: true });
   canvas.addEventListener('pointermove', (event) => {
-    if (!orbiting && facing.move(event.offsetX, event.offsetY)) return;
+    if (!orbiting && (facing.move(event.offsetX, event.offsetY) || sketching.move(event.offsetX, event.offsetY))) return;
     if (store.state.gesture.state === 'idle' || store.state.gesture.state === 'settling') {
       if (!orbiting && !store.state.playing && store.state.connected === 'open') hover(event);
       return;
@@ -55,7 +55,7 @@ export function listenToPointer({ store, gesture, facing, commands, overlay, vie
   const heard = { x: NaN, y: NaN, time: 0 };
   /** @param {PointerEvent} event */
   const follow = (event) => {
-    gesture.snapTo(event.ctrlKey || event.metaKey, event.shiftKey);
+    gesture.snapTo(event.ctrlKey || event.metaKey, event.shiftKey, event.altKey);
     Object.assign(heard, { x: event.offsetX, y: event.offsetY, time: event.timeStamp });
     gesture.move(event.offsetX, event.offsetY);
   };
@@ -83,17 +83,17 @@ export function listenToPointer({ store, gesture, facing, commands, overlay, vie
     const clicked = orbiting && event.button === 0 && Math.hypot(event.offsetX - down[0], event.offsetY - down[1]) <= 4;
     orbiting = false;
     view.camera.enable(true);
-    if (event.button === 0) facing.up(event.offsetX, event.offsetY);
+    if (event.button === 0) facing.up(event.offsetX, event.offsetY), sketching.up(event.offsetX, event.offsetY);
     if (event.button === 0) gesture.up(event.offsetX, event.offsetY);
     if (clicked && !event.shiftKey) store.set({ selected: -1, selectedNail: -1 });
   });
   canvas.addEventListener('pointercancel', () => {
     orbiting = false;
-    gesture.cancel();
+    gesture.cancel(), sketching.cancel();
   });
   canvas.addEventListener('pointerleave', () => store.state.gesture.state === 'idle' && store.set({ hover: null }));
   canvas.addEventListener('contextmenu', (event) => event.preventDefault());
-  window.addEventListener('blur', () => gesture.snapTo(false, false));
+  window.addEventListener('blur', () => gesture.snapTo(false, false, false));
   window.addEventListener('blur', () => store.state.gesture.nailing && gesture.put({ nailing: false }));
   store.on(['gesture'], ({ gesture: now }) => {
     canvas.classList.toggle('closed-hand', now.state === 'dragging' || now.state === 'pressed');
@@ -114,11 +114,15 @@ export function listenToPointer({ store, gesture, facing, commands, overlay, vie
 }
 
 /** @param {Parts} parts */
-export function listenToKeys({ store, gesture, facing, commands, frame, overlay, view }) {
+export function listenToKeys({ store, gesture, facing, sketching, commands, frame, overlay, view }) {
   const typing = /** @type {HTMLInputElement} */ (byId('typing'));
   for (const kind of /** @type {const} */ (['keydown', 'keyup'])) {
-    window.addEventListener(kind, ({ key, ctrlKey, metaKey, shiftKey }) => {
+    window.addEventListener(kind, (event) => {
+      const { key, ctrlKey, metaKey, shiftKey } = event;
       if (['Control', 'Meta', 'Shift'].includes(key)) gesture.snapTo(ctrlKey || metaKey, shiftKey);
+      if (key !== 'Alt' || store.state.gesture.state !== 'dragging') return;
+      gesture.snapTo(event.ctrlKey || event.metaKey, event.shiftKey, kind === 'keydown');
+      event.preventDefault();  // no menu of the browser
     });
   }
   window.addEventListener('keydown', (event) => {
@@ -161,7 +165,7 @@ export function listenToKeys({ store, gesture, facing, commands, frame, overlay,
     /** @type {Partial<Record<import('./keys.js').Action, () => void>>} */
     const acts = {
       'axis x': () => gesture.setAxis('x', shift), 'axis y': () => gesture.setAxis('y', shift), 'axis z': () => gesture.setAxis('z', shift),
-      lift: () => gesture.lift(), confirm: () => gesture.release(), cancel: () => void (gesture.cancel() || facing.cancel() || store.set(store.state.adding >= 0 ? { adding: -1 } : { selected: -1, selectedNail: -1 })),
+      lift: () => gesture.lift(), confirm: () => gesture.release(), cancel: () => void (gesture.cancel() || facing.cancel() || sketching.cancel() || store.set(store.state.adding >= 0 ? { adding: -1 } : { selected: -1, selectedNail: -1 })),
       earlier: () => commands.stepFrame(-1), later: () => commands.stepFrame(1), 'impact before': () => commands.stepImpact(-1),
       'impact after': () => commands.stepImpact(1), 'body before': () => commands.selectNext(-1), 'body after': () => commands.selectNext(1),
       start: () => commands.seek(0), end: () => commands.seek(Infinity),
@@ -169,7 +173,7 @@ export function listenToKeys({ store, gesture, facing, commands, frame, overlay,
     };
     /** @type {Partial<Record<import('./keys.js').Action, () => void>>} */
     const once = {
-      move: () => commands.hold('move'), turn: () => commands.hold('turn'), throw: () => commands.aimThrow(), face: () => store.set({ tool: 'face' }),
+      move: () => commands.hold('move'), turn: () => commands.hold('turn'), throw: () => commands.aimThrow(), face: () => store.set({ tool: 'face' }), pen: () => store.set({ tool: 'pen' }),
       nail: () => (now.state === 'dragging' ? gesture.put({ nailing: true }) : void commands.nailHere()),
       remove: () => void (selectedNail >= 0 && commands.removeNail()), play: () => commands.togglePlay(),
       undo: () => void commands.undo(), redo: () => void commands.redo(), save: () => void commands.save(), open: () => void openDialog(commands),

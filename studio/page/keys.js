@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What keys do. None acts while a field has the focus.
 
-/** @typedef {'move' | 'turn' | 'throw' | 'face' | 'nail' | 'remove' | 'axis x' | 'axis y' | 'axis z' | 'lift' | 'confirm' | 'cancel' | 'play' |
+/** @typedef {'move' | 'turn' | 'throw' | 'face' | 'pen' | 'nail' | 'remove' | 'axis x' | 'axis y' | 'axis z' | 'lift' | 'confirm' | 'cancel' | 'play' |
  *    'earlier' | 'later' | 'impact before' | 'impact after' | 'start' | 'end' | 'undo' | 'redo' | 'save' | 'open' |
  *    'frame' | 'frame all' | 'front' | 'side' | 'top' | 'before' | 'panel' | 'keys' | 'body before' | 'body after'} Action */
 
@@ -11,6 +11,7 @@ export const keyTable = [
   { action: 'turn', name: 'turn', blender: ['R'], maya: ['E'] },
   { action: 'throw', name: 'throw: the velocity at the start', blender: ['V'], maya: ['T'] },
   { action: 'face', name: 'the face that is up at rest', blender: ['U'], maya: ['U'] },
+  { action: 'pen', name: 'pen: draw the path', blender: ['P'], maya: ['P'] },
   { action: 'nail', name: 'nail where it is', blender: ['I'], maya: ['S'] },
   { action: 'remove', name: 'remove the nail', blender: ['X', 'Delete'], maya: ['Delete'] },
   { action: 'axis x', name: 'in a drag: along x, again: its own x', blender: ['X'], maya: ['X'] },

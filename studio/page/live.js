@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the hand and the play head do, in words: the readout below the view, and for screen readers.
+// What the hand and the play head do, in words: the readout below the view.
 
 import { byId, el } from './dom.js';
 import { centreAt, velocityAt } from './motion.js';
@@ -9,7 +9,7 @@ import { lengthText } from './number_field_text.js';
 
 /** @param {import('./store.js').Store<State>} store */
 export function showReadout(store) {
-  const readout = byId('readout'), live = byId('live');
+  const readout = byId('readout');
   store.on(['time', 'motion', 'selected', 'gesture', 'document'], (state) => {
     const { motion, selected, document, gesture, time } = state, body = document?.bodies[selected], track = motion?.tracks[selected];
     readout.hidden = !motion || !body || !track;
@@ -18,14 +18,7 @@ export function showReadout(store) {
     const [words, kind] = standing(state);
     readout.replaceChildren(
       el('strong', { class: 'cut' }, body.name), el('span', { class: 'dim' }, `${at.toFixed(3)} s`), el('span', { class: 'dim' }, `${x} ${y} ${z} m`),
-      ...(words ? [el('span', { class: kind }, words)] : []), ...(gesture.snap ? [el('span', { class: 'dim' }, gesture.turn ? `steps of ${Math.round((gesture.snap * 180) / Math.PI * 10) / 10}°` : `steps of ${lengthText(gesture.snap)}`)] : []), ...(gesture.axis ? [el('span', { class: 'dim' }, `along ${axisText(gesture.axis)}`)] : []));
-  });
-  let spoken = '';
-  store.on(['selected', 'gesture'], ({ selected, document, gesture }) => {
-    const words = gesture.state === 'settling' && gesture.settlingShown ? 'Settling'
-      : gesture.state === 'dragging' ? `Dragging ${document?.bodies[selected]?.name ?? ''}` : (document?.bodies[selected]?.name ?? '');
-    if (words === spoken) return;
-    live.textContent = spoken = words;
+      ...(words ? [el('span', { class: kind }, words)] : []), ...(gesture.snap ? [el('span', { class: 'dim' }, gesture.turn ? `steps of ${Math.round((gesture.snap * 180) / Math.PI * 10) / 10}°` : `steps of ${lengthText(gesture.snap)}`)] : []), ...(gesture.snapOn ? [el('span', { class: 'dim' }, `to: ${gesture.snapOn}`)] : []), ...(gesture.axis ? [el('span', { class: 'dim' }, `along ${axisText(gesture.axis)}`)] : []));
   });
 }
 

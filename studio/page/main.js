@@ -23,7 +23,10 @@ import { showNumbers } from './panels/numbers.js';
 import { showOthers } from './panels/others.js';
 import { showScene } from './panels/scene.js';
 import { showPlayer } from './player.js';
+import { snapped } from './snap.js';
+import { Sketching } from './sketching.js';
 import { makeStage } from './stage.js';
+import { speak } from './speech.js';
 import { initialState, Store } from './store.js';
 import { addTestHooks } from './test_hooks.js';
 import { TimeLine } from './timeline.js';
@@ -63,10 +66,10 @@ function start() {
   let gesture = null;
   const connection = new Connection({
     url: `ws://${location.host}/socket`, token: takeToken(), tab: store.state.tab,
-    listener: listener({ store, gesture: () => gesture, opened: () => frame(-1, true), recovered: (steps, repairs) => commands.tellRecovered(steps, repairs) }),
+    listener: listener({ store, gesture: () => gesture, opened: () => frame(-1, true), recovered: (steps, repairs) => commands.tellRecovered(steps, repairs), drawn: () => commands.tellSketch() }),
   });
   gesture = new Gesture({
-    store, connection, space: { touched: (hit) => touchedAt(store.state, hit), ray: (x, y) => view.camera.ray(x, y), project: (p) => [view.camera.project(p)[0], view.camera.project(p)[1]], camera: () => view.camera.axes() },
+    store, connection, space: { touched: (hit) => touchedAt(store.state, hit), snapped: (hit, x, y) => snapped(view, store.state, hit, x, y), ray: (x, y) => view.camera.ray(x, y), project: (p) => [view.camera.project(p)[0], view.camera.project(p)[1]], camera: () => view.camera.axes() },
     select: (hit) => {
       if (!hit) return;
       store.set({ selected: hit.body, selectedNail: hit.kind === 'nail' ? (hit.nail ?? -1) : -1, ...(hit.kind === 'handle' || hit.kind === 'body' ? {} : { time: hit.time }) });
@@ -81,6 +84,7 @@ function start() {
   showHeader(store, commands, gesture, { picture, compose });
   showNotices(store, { takeRemedy: (name) => void commands.takeRemedy(name) });
   showReadout(store);
+  speak(store);
   showBodies(store);
   const facing = new Facing({ store, view, commands });
   showBody(store, commands, facing);
@@ -93,7 +97,8 @@ function start() {
   showHint(store);
   showLayout(store);
   const timeline = new TimeLine(/** @type {HTMLCanvasElement} */ (byId('timeline')), store, commands);
-  const parts = { store, gesture, facing, commands, overlay, view, frame };
+  const sketching = new Sketching({ store, overlay, view, commands });
+  const parts = { store, gesture, facing, sketching, commands, overlay, view, frame };
   listenToPointer(parts);
   listenToKeys(parts);
   if (query.has('test')) addTestHooks({ store, view, overlay, timeline, connection, gesture });

@@ -8,11 +8,11 @@ import { closedDocument, nothingOfAScene } from './store.js';
 
 /** @typedef {import('./types.js').State} State */
 /** @typedef {{store: import('./store.js').Store<State>, gesture: () => import('./gesture.js').Gesture | null,
- *    opened: () => void, recovered: (steps: number, repairs: string[]) => void}} Parts `opened`: another scene is shown;
+ *    opened: () => void, drawn?: () => void, recovered: (steps: number, repairs: string[]) => void}} Parts `opened`: another scene is shown; `drawn`: a path goes along a drawn curve;
  *    `recovered`: it came with steps that had not been saved, or mesh files that were repaired */
 
 /** @param {Parts} parts @returns {import('./connection.js').Listener} */
-export function listener({ store, gesture, opened, recovered }) {
+export function listener({ store, gesture, opened, recovered, drawn = () => {} }) {
   // whose scene is shown, and whether the motion that comes next is its first one
   let session = '', scene = NaN, first = false, told = '';
 
@@ -64,6 +64,15 @@ export function listener({ store, gesture, opened, recovered }) {
     if (!cancelled) store.set({ notice: found ? { message: `'${name}' comes to rest with ${facing.name} up.` } : { message, kind: 'amber' } });
   };
 
+  /** How far a path has come along a drawn curve; the curve of the answer is drawn by its nails. @param {any} message */
+  const sketch = ({ more, cancelled, message }) => {
+    if (more || !store.state.sketch?.searching) return;
+    store.set({ sketch: null, ...(cancelled ? { before: null } : {}) });
+    if (cancelled) return;
+    if (message) return store.set({ notice: { message, kind: 'amber' } });
+    drawn();
+  };
+
   /** Another motion that meets the same. @param {import('./frames.js').Frame} frame */
   const another = (frame) => {
     const { others } = store.state, { rev, index, size, other_impacts: impacts } = frame.header;
@@ -89,6 +98,7 @@ export function listener({ store, gesture, opened, recovered }) {
       else if (message.type === 'progress') store.set({ progress: message.message });
       else if (message.type === 'why') why(message);
       else if (message.type === 'face_up') faceUp(message);
+      else if (message.type === 'sketch') sketch(message);
     },
     frame(frame) {
       if (frame.header.type === 'scene') {

@@ -3,6 +3,7 @@
 
 import { byId, el, iconButton } from './dom.js';
 import { forPeople } from './number_field_text.js';
+import { say } from './speech.js';
 
 /** @typedef {import('./types.js').Notice} Notice */
 
@@ -14,7 +15,7 @@ const mostRemedies = 4, mostOthers = 3;
 
 /** @param {import('./store.js').Store<import('./types.js').State>} store @param {{takeRemedy: (name: string) => void}} commands */
 export function showNotices(store, commands) {
-  const notice = byId('notice'), card = byId('card'), live = byId('live');
+  const notice = byId('notice'), card = byId('card');
   /** @param {HTMLElement} place @param {Notice | null} shown @param {() => void} close */
   const show = (place, shown, close) => {
     place.replaceChildren();
@@ -40,7 +41,7 @@ export function showNotices(store, commands) {
     show(notice, state.notice, close);
     clearTimeout(timer);
     if (state.notice) timer = setTimeout(fade, state.notice.actions?.length ? fadesWithButtons : fades);
-    if (state.notice) live.textContent = forPeople(state.notice.message);
+    if (state.notice) say(forPeople(state.notice.message));
   });
   /** The answers come one by one: what was said is not said again. */
   let said = '';
@@ -55,7 +56,7 @@ export function showNotices(store, commands) {
     }
     const solving = remedies.filter(({ solves }) => solves).map(({ name }) => `${forPeople(name)} reaches it.`);
     const words = state.card ? [forPeople(state.card.message), ...(state.card.searching ? [] : solving)].join(' ') : '';
-    if (words && words !== said) live.textContent = words;
+    if (words !== said) say(words);
     said = words;
   });
 }

@@ -17,7 +17,7 @@ export function makeStage(store, shadowMap) {
   const view = new View({ host: byId('view'), input: canvas, store, shadowMap, drawn: () => marks?.draw(), resized: (width, height) => marks?.resize(width, height) });
   const overlay = (marks = new Overlay(canvas, store, view));
   overlay.resize(view.camera.width, view.camera.height);
-  store.on(['scene', 'motion', 'opened', 'before', 'showBefore', 'changesShown', 'preview', 'time', 'selected', 'hover', 'tool', 'gesture', 'document', 'selectedNail', 'quality', 'dots'], () => view.invalidate());
+  store.on(['scene', 'motion', 'opened', 'before', 'showBefore', 'changesShown', 'preview', 'time', 'selected', 'hover', 'tool', 'gesture', 'document', 'selectedNail', 'quality', 'dots', 'facing', 'sketch'], () => view.invalidate());
   const compose = (/** @type {HTMLCanvasElement} */ both) => {
     const layers = [...byId('view').querySelectorAll(':scope > canvas')].map((layer) => /** @type {HTMLCanvasElement} */ (layer)), pen = both.getContext('2d');
     const [width, height] = [Math.max(...layers.map((layer) => layer.width)), Math.max(...layers.map((layer) => layer.height))];

@@ -6,16 +6,16 @@
 /** @type {import('./types.js').GestureState} */
 export const idleGesture = {
   state: 'idle', number: 0, hit: null, target: null, turn: null, axis: '', seq: 0, answered: -1, settlingShown: false,
-  nailing: false, snap: 0,
+  nailing: false, snap: 0, snapOn: '',
 };
 
 /** What belongs to one scene, as it is before anything of the scene is there: nothing of another is kept.
  * @returns {Pick<State, 'document' | 'scene' | 'motion' | 'opened' | 'savedMotion' | 'before' | 'changesShown' | 'time' | 'playing' |
- *    'loopRange' | 'selected' | 'hover' | 'gesture' | 'locked' | 'card' | 'selectedNail' | 'adding' | 'mesh' | 'bodiesAsOpened' | 'facing' | 'others' | 'preview'>} */
+ *    'loopRange' | 'selected' | 'hover' | 'gesture' | 'locked' | 'card' | 'selectedNail' | 'adding' | 'mesh' | 'bodiesAsOpened' | 'facing' | 'sketch' | 'others' | 'preview'>} */
 export function nothingOfAScene() {
   return {
     document: null, scene: null, motion: null, opened: null, savedMotion: null, before: null, changesShown: false, time: 0,
-    playing: false, loopRange: null, selected: -1, hover: null, gesture: idleGesture, locked: new Set(), card: null, selectedNail: -1, adding: -1, mesh: '', bodiesAsOpened: true, facing: null, others: null, preview: null,
+    playing: false, loopRange: null, selected: -1, hover: null, gesture: idleGesture, locked: new Set(), card: null, selectedNail: -1, adding: -1, mesh: '', bodiesAsOpened: true, facing: null, sketch: null, others: null, preview: null,
   };
 }
 

@@ -11,7 +11,7 @@ import { Turn } from './tools/turn.js';
 /** @typedef {import('./types.js').State} State */
 /** @typedef {import('./types.js').Vec3} Vec3 */
 /** @typedef {{ray: (x: number, y: number) => import('./tools/move.js').Ray, project: (p: Vec3) => [number, number],
- *    touched: (hit: Hit) => import('./tools/slide.js').Touched | null,
+ *    touched: (hit: Hit) => import('./tools/slide.js').Touched | null, snapped?: (hit: Hit, x: number, y: number) => import('./snap.js').Snapped | null,
  *    camera: () => {view: Vec3, right: Vec3, up: Vec3, perPixel: (p: Vec3) => number}}} Space */
 
 /** Why a body cannot be held; empty where it can. @param {State} state @param {Hit} hit */

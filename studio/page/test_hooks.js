@@ -30,8 +30,8 @@ export function addTestHooks({ store, view, overlay, timeline, connection, gestu
   let stamp = 0;
   for (const kind of ['pointermove', 'pointerrawupdate']) overlay.canvas.addEventListener(kind, (event) => (stamp = event.timeStamp), { capture: true });
   const offer = gesture.offer.bind(gesture);
-  gesture.offer = (target) => {
-    offer(target);
+  gesture.offer = (target, snapOn) => {
+    offer(target, snapOn);
     const { sender } = gesture;
     if (stamp && sender) moves.push({ moved: stamp, seq: sender.seq + (sender.waiting ? 1 : 0), decoded: false });
     stamp = 0;

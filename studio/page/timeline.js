@@ -4,7 +4,7 @@
 import { colours, impactColours, inkOf } from './colours.js';
 import { impactsThatChanged } from './changes.js';
 import { byId } from './dom.js';
-import { nailColour, nailPlaces } from './overlay/hoops.js';
+import { nailColour, singleNails } from './overlay/hoops.js';
 import { centreAt, moves } from './motion.js';
 import { forPeople } from './number_field_text.js';
 import { lanes, ticks, tOf, xOf, zoomed } from './timeline_layout.js';
@@ -159,7 +159,7 @@ export class TimeLine {
       if (impact.bodies.includes(body)) diamond(pen, xOf(axis, impact.t), middle, size, impactColours[impact.mode] ?? impactColours.stick, true);
     }
     if (state.changesShown && state.before && height >= 10) this.drawChanges(state.before, motion, body, middle);
-    for (const place of nailPlaces(state)) {
+    for (const place of singleNails(state)) {
       if (place.body !== body) continue;
       const dragged = typeof this.dragged === 'object' && 'nail' in this.dragged && this.dragged.nail === place.id ? this.dragged.time : place.time;
       pen.strokeStyle = nailColour(place.nail);
@@ -212,7 +212,7 @@ export class TimeLine {
       return this.store.set({ loopRange: null });
     }
     const lane = this.seen.find(({ y, height }) => event.offsetY >= y && event.offsetY < y + height);
-    const nail = lane && nailPlaces(this.store.state).find((place) => place.body === lane.body && Math.abs(xOf(this.axis, place.time) - event.offsetX) < 8);
+    const nail = lane && singleNails(this.store.state).find((place) => place.body === lane.body && Math.abs(xOf(this.axis, place.time) - event.offsetX) < 8);
     if (nail) {
       this.store.set({ selectedNail: nail.id, selected: nail.body });
       this.dragged = typeof nail.nail.constraint.at === 'number' && this.commands.setNail ? { nail: nail.id, time: nail.time } : '';

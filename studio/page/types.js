@@ -10,7 +10,7 @@
 /** @typedef {{body: string, at?: When, position?: Target[], contact?: Target[], orientation?: Quat, velocity?: Target[],
  *    angular_velocity?: Target[], speed?: Target, kinetic_energy?: Target, impulse?: Target, height?: Target,
  *    time?: Target, point?: {body_point: Vec3, world: Target[]}, relative_to?: string,
- *    avoid?: unknown, inside?: unknown, notes?: string}} Constraint */
+ *    avoid?: unknown, inside?: unknown, notes?: string, soft?: number}} Constraint */
 
 /** @typedef {{control: number, name: string, component: string, opened: number, now: number, min: number | null,
  *    max: number | null, scale: number, at_bound: 'min' | 'max' | null, pointer: string | null}} NumberState */
@@ -58,20 +58,22 @@
 /** A body that is to come to rest with a face up. name: of the face; up: its normal, in the axes of the shape; place: on the surface where
  * it is to lie; searching: for a throw; tried: so many.
  * @typedef {{body: number, name: string, up: Vec3, place: Vec3 | null, searching: boolean, tried: number}} FacingState */
+/** A curve that the pen draws. from: s, when it begins; places: along it; searching: for a path.
+ * @typedef {{body: number, from: number, places: Vec3[], searching: boolean}} SketchState */
 /** The gesture under way, as the drawing parts see it.
  * @typedef {{state: 'idle' | 'pressed' | 'dragging' | 'typing' | 'settling', number: number, hit: Hit | null,
  *    target: Vec3 | null, turn: Quat | null, axis: string, seq: number, answered: number, settlingShown: boolean,
- *    nailing: boolean, snap: number}} GestureState  snap: steps of the target, m or rad; 0: none */
+ *    nailing: boolean, snap: number, snapOn: string}} GestureState  snap: steps of the target, m or rad; 0: none; snapOn: the mark or surface that it went to */
 
 /** @typedef {'connecting' | 'loading' | 'open' | 'lost' | 'ended'} Connected */
 /** @typedef {{connected: Connected, progress: string, folder: string, document: DocumentState | null,
  *    scene: SceneShapes | null, motion: Motion | null, opened: Motion | null, savedMotion: Motion | null,
  *    before: Motion | null, showBefore: 'none' | 'opened' | 'saved' | 'changes', changesShown: boolean,
  *    time: number, playing: boolean,
- *    speed: number, loop: boolean, loopRange: [number, number] | null, dots: number, selected: number, hover: Hit | null, tool: 'move' | 'turn' | 'throw' | 'face', adding: number, mesh: string,
+ *    speed: number, loop: boolean, loopRange: [number, number] | null, dots: number, selected: number, hover: Hit | null, tool: 'move' | 'turn' | 'throw' | 'face' | 'pen', adding: number, mesh: string,
  *    gesture: GestureState, nailOnRelease: boolean, leaveRestFree: boolean, turnLeavesPlace: boolean, keymap: 'blender' | 'maya',
  *    locked: ReadonlySet<string>, panel: boolean, quality: 'low' | 'high', notice: Notice | null, card: Notice | null,
- *    bodiesAsOpened: boolean, facing: FacingState | null, others: Others | null, preview: Motion | null, noticesStay: boolean, selectedNail: number, tab: string, looking: boolean}} State  bodiesAsOpened: none came, went or has another name since;
+ *    bodiesAsOpened: boolean, facing: FacingState | null, sketch: SketchState | null, others: Others | null, preview: Motion | null, noticesStay: boolean, selectedNail: number, tab: string, looking: boolean}} State  bodiesAsOpened: none came, went or has another name since;
  *    noticesStay: for tests, which take their time;
  *    looking: nothing can be changed; preview: of the others, the one that is pointed at; adding: which of `additions` the next press puts down, the one behind them: the file `mesh`; -1: none */
 

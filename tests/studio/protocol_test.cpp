@@ -64,6 +64,10 @@ const std::map<std::string, Json>& examples() {
         {{"type", "open"}, {"path", "a/b.json"}, {"gallery", true}, {"replace", true}},
         {{"type", "save"}, {"path", "b.json"}, {"replace", true}},
         {{"type", "export"}, {"format", "html"}, {"before", true}, {"keys", "cubic"}},
+        {{"type", "face_up"}, {"rev", 3}, {"body", "hat"}, {"up", {0, 0, 1}}, {"place", {0.1, 0.2}}, {"nail", true}},
+        {{"type", "sketch"}, {"rev", 3}, {"body", "hat"}, {"from", 0.1}, {"places", {{0, 0, 1}, {0.1, 0, 1}}}},
+        {{"type", "upload"}, {"name", "a.obj"}, {"at", 0}, {"data", "YWJj"}},
+        {{"type", "import"}, {"path", "a.glb"}, {"as", "hull"}, {"replace", true}},
         {{"type", "list"}, {"path", "a"}, {"meshes", true}},
         {{"type", "gallery"}},
     };
@@ -218,7 +222,8 @@ TEST(Protocol, AGrabMayHoldATurnAloneOrAContact) {
 TEST(Protocol, EveryMemberThatIsNeededIsMissed) {
   const std::map<std::string, std::vector<const char*>> optional = {
       {"grab", {"grip", "also_vary"}},  {"drag", {"orientation", "components"}},     {"release", {"orientation", "components", "nail"}},
-      {"open", {"gallery", "replace"}}, {"save", {"path", "replace"}}, {"list", {"path", "meshes"}}, {"add_body", {"on"}}, {"new", {"replace"}}, {"export", {"before", "keys"}}, {"alternatives", {"count"}}};
+      {"open", {"gallery", "replace"}}, {"save", {"path", "replace"}}, {"list", {"path", "meshes"}}, {"add_body", {"on"}}, {"new", {"replace"}}, {"export", {"before", "keys"}}, {"alternatives", {"count"}},
+      {"face_up", {"place", "nail"}}, {"import", {"path", "as", "replace"}}};
   for (const auto& [type, good] : examples()) {
     const auto known = optional.find(type);
     for (const auto& member : good.items()) {

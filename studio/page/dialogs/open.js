@@ -38,10 +38,8 @@ async function folderList(commands, path, enter, opened) {
   return list;
 }
 
-/** A mesh file of the folder, or of one within it; '' where none is chosen. @param {Commands} commands @returns {Promise<string>} */
-export async function meshDialog(commands) {
-  /** @type {(path: string) => void} */
-  let choose = () => {};
+/** The mesh files of the folder, and of those within it. @param {Pick<Commands, 'tell'>} commands @param {(path: string) => void} choose */
+export async function meshFiles(commands, choose) {
   const files = el('div', {});
   /** @param {string} path @returns {Promise<void>} */
   const enter = async (path) => {
@@ -52,6 +50,14 @@ export async function meshDialog(commands) {
       ...rows, rows.length ? null : el('li', { class: 'dim' }, 'no OBJ or glTF files here')));
   };
   await enter('');
+  return files;
+}
+
+/** A mesh file of the folder, or of one within it; '' where none is chosen. @param {Commands} commands @returns {Promise<string>} */
+export async function meshDialog(commands) {
+  /** @type {(path: string) => void} */
+  let choose = () => {};
+  const files = await meshFiles(commands, (path) => choose(path));
   return dialog('Add a mesh', [files], (end) => {
     choose = end;
     return [el('button', { type: 'button', onclick: () => end('') }, 'Cancel')];

@@ -13,6 +13,7 @@ import { showBodies } from '../panels/bodies.js';
 import { PlayHead } from '../play_head.js';
 import { showPlayer } from '../player.js';
 import { makeStage } from '../stage.js';
+import { speak } from '../speech.js';
 import { initialState, Store } from '../store.js';
 import { TimeLine } from '../timeline.js';
 import { isHardware, qualityFor, rendererName } from '../view/quality.js';
@@ -42,6 +43,7 @@ export function show({ state: document, scene, motion: bytes, before: bytes_befo
   showValues(document, !!before);
   showNailsHeld(store, head);
   showReadout(store);
+  speak(store);
   showPlayer(store, head);
   showLayout(store, before);
   byId('table').addEventListener('click', () => void tableDialog(store));

@@ -39,6 +39,12 @@ export function nailPlaces({ document, motion }) {
   });
 }
 
+/** Whether a nail is one of a drawn curve. @param {import('../types.js').NailState} nail */
+export const isDrawn = ({ constraint: { soft, at, notes } }) => soft !== undefined && typeof at === 'object' && 'between' in at && !!notes;
+
+/** Where nails are, but for those of drawn curves. @param {State} state */
+export const singleNails = (state) => nailPlaces(state).filter(({ nail }) => !isDrawn(nail));
+
 /** @param {NailState} nail */
 export function nailColour({ on, available, met }) {
   if (!available || !on) return colours.before;

@@ -4,10 +4,11 @@
 import { impactAt, moves, pathTimes, pointAt, velocityAt } from '../motion.js';
 import { sagOf } from '../view/paths.js';
 import { drawHandles, handleShapes, handleUnder, throwHandles } from './handles.js';
-import { drawHoops, nailPlaces, placeHeld } from './hoops.js';
+import { drawHoops, nailPlaces, placeHeld, singleNails } from './hoops.js';
 import { drawChangedImpacts, drawDots, drawHeld, drawHover, drawImpacts, drawRests } from './marks.js';
 import { drawNames } from './names.js';
 import { onScreen, pick } from './pick.js';
+import { drawSketches } from './sketches.js';
 
 /** @typedef {import('../types.js').State} State */
 
@@ -52,7 +53,8 @@ export class Overlay {
     drawRests(pen, state, bodies, project, scale, hidden);
     drawNames(pen, state, bodies, project);
     drawChangedImpacts(pen, state, project, scale);
-    drawHoops(pen, nailPlaces(state), project, scale, state.selectedNail, hidden);
+    drawSketches(pen, nailPlaces(state), state.sketch?.places ?? [], project, scale);
+    drawHoops(pen, singleNails(state), project, scale, state.selectedNail, hidden);
     if (!dragging) drawHandles(pen, this.handles(), hover?.handle ?? '');
     if (hover && gesture.state === 'idle') drawHover(pen, hover, bodies.length > 1 ? (state.document?.bodies[hover.body]?.name ?? '') : '', project, scale);
     if (gesture.hit && gesture.state !== 'idle') {
@@ -72,7 +74,7 @@ export class Overlay {
     if (fixed ? !placed : !placed && !moves(track)) return [];
     const place = pointAt(track, track.center, Math.min(time, motion.end));
     if (tool === 'throw') return fixed || time !== 0 ? [] : throwHandles(place, velocityAt(track, 0), this.scale * this.view.camera.axes().perPixel(place), this.project);
-    return tool === 'face' ? [] : handleShapes(tool, place, this.scale * this.view.camera.axes().perPixel(place), this.project);
+    return tool === 'face' || tool === 'pen' ? [] : handleShapes(tool, place, this.scale * this.view.camera.axes().perPixel(place), this.project);
   }
 
   /** @param {number} x @param {number} y px @returns {import('../types.js').Hit | null} */
@@ -90,7 +92,7 @@ export class Overlay {
         const handle = handleUnder(handles, hx, hy);
         return handle ? { handle, body: selected } : null;
       },
-      nails: nailPlaces(state).filter((place) => placeHeld(place.nail.constraint)),
+      nails: singleNails(state).filter(({ nail }) => placeHeld(nail.constraint)),
       bodyUnder: (bx, by) => this.view.bodies.pick(this.view.camera.cast(bx, by)),
     }, x, y);
   }

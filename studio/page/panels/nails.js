@@ -5,7 +5,8 @@ import { byId, el, iconButton } from '../dom.js';
 import { icon } from '../icons.js';
 import { pointAt, turnAt } from '../motion.js';
 import { forPeople, lengthText } from '../number_field_text.js';
-import { atText, nailPlaces, placeHeld } from '../overlay/hoops.js';
+import { atText, isDrawn, nailPlaces, placeHeld } from '../overlay/hoops.js';
+import { curvesOf } from '../overlay/sketches.js';
 
 /** @typedef {import('../types.js').Constraint} Constraint */
 /** @typedef {import('../types.js').NailState} NailState */
@@ -17,12 +18,25 @@ export function showNails(store, commands) {
   meet.onclick = () => void commands.meetNails();
   store.on(['document', 'selectedNail'], (state) => {
     const nails = state.document?.nails ?? [], focused = document.activeElement?.getAttribute('data-key');
-    meet.hidden = !nails.some((nail) => !nail.on || (nail.available && !nail.met));
+    meet.hidden = !nails.some((nail) => !nail.on || (nail.available && !nail.met && !isDrawn(nail)));
     byId('nails-empty').hidden = nails.length > 0 || !state.document?.open;
-    list.replaceChildren(...nails.map((nail) => row(nail, state)));
+    const curves = curvesOf(nails.map((nail) => ({ nail }))).map((curve) => curve.map(({ nail }) => nail));
+    list.replaceChildren(...nails.filter((nail) => !isDrawn(nail)).map((nail) => row(nail, state)), ...curves.map((curve) => curveRow(curve)));
     const again = focused && /** @type {HTMLElement | null} */ (list.querySelector(`[data-key="${CSS.escape(focused)}"]`));
     if (again) again.focus();
   });
+
+  /** All nails of a drawn curve. @param {NailState[]} curve */
+  function curveRow(curve) {
+    const { body, notes = '' } = curve[0].constraint, title = `${body}, ${notes}`, off = Math.max(...curve.map(({ error }) => error));
+    const choose = el('button', { type: 'button', class: 'row name', title, 'data-key': `curve ${title}`, onclick: () => {
+      store.set({ selectedNail: -1, selected: store.state.document?.bodies.findIndex((one) => one.name === body) ?? -1 });
+      if (curve[0].time !== null) commands.seek(curve[0].time);
+    } }, icon('pen'), el('span', { class: 'cut grow' }, title));
+    const remove = iconButton('close', `Remove ${title}`, () => void commands.tell('unnail', { sketch: notes }), { 'data-key': `remove ${title}` });
+    const words = curve.some(({ available }) => !available) ? 'beyond the end of the motion' : `at most ${lengthText(off)} off`;
+    return el('li', { class: 'nail' }, el('div', { class: 'nail-head' }, choose, remove), el('div', { class: 'components' }, el('span', { class: 'standing dim', title: words }, words)));
+  }
 
   /** @param {NailState} nail @param {State} state */
   function row(nail, state) {

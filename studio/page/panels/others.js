@@ -3,6 +3,7 @@
 
 import { byId, el, iconButton } from '../dom.js';
 import { forPeople } from '../number_field_text.js';
+import { say } from '../speech.js';
 
 /** @typedef {import('../types.js').State} State */
 /** @typedef {import('../types.js').Other} Other */
@@ -13,7 +14,7 @@ const widest = 132, narrowest = 104;
 /** @param {import('../store.js').Store<State>} store @param {import('../commands.js').Commands} commands
  * @param {(motion: import('../types.js').Motion, canvas: HTMLCanvasElement) => void} draw */
 export function showOthers(store, commands, draw) {
-  const place = byId('others'), find = /** @type {HTMLButtonElement} */ (byId('find-others')), live = byId('live');
+  const place = byId('others'), find = /** @type {HTMLButtonElement} */ (byId('find-others'));
   /** @type {Map<import('../types.js').Motion, HTMLCanvasElement>} drawn, or to be drawn next */
   let pictures = new Map(), said = '';
   find.onclick = () => void commands.findOthers();
@@ -40,7 +41,7 @@ export function showOthers(store, commands, draw) {
     place.append(el('div', { class: 'head' }, el('span', { class: others.searching ? 'dim grow' : 'grow' }, words),
       iconButton('close', 'Close the other solutions', close)), ...(others.list.length ? [el('div', { class: 'strip' }, ...others.list.map((other) => card(other, others.taken)))] : []));
     if (focused) /** @type {HTMLElement | null} */ (place.querySelector(`[data-other="${focused}"]`))?.focus();
-    if (!others.searching && words !== said) live.textContent = said = words;
+    if (!others.searching && words !== said) say(said = words);
     if (others.searching) said = '';
   });
 

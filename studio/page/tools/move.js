@@ -38,6 +38,13 @@ export function nextAxis(axis, letter, plane) {
   return axis === own ? '' : world;
 }
 
+/** As near as an axis, or the plane across one, allows. @param {Vec3} place @param {Vec3} start @param {Vec3 | null} axis @param {boolean} plane @returns {Vec3} */
+function heldTo(place, start, axis, plane) {
+  if (!axis) return place;
+  const far = dot(minus(place, start), axis);
+  return plane ? along(place, axis, -far) : along(start, axis, far);
+}
+
 /** Point of the ray in the plane; none where the plane is seen from its edge.
  * @param {Ray} ray @param {Vec3} point @param {Vec3} normal unit @returns {Vec3 | null} */
 export function inPlane({ origin, direction }, point, normal) {
@@ -115,6 +122,12 @@ export class Move {
     const axis = axisOf(this.axis, this.turn);
     if (!axis) return inPlane(ray, this.start, this.view);
     return this.axis.includes('plane') ? inPlane(ray, this.start, axis) : onLine(ray, this.start, axis, this.view);
+  }
+
+  /** To a place that something else says. @param {Vec3} place @returns {{place: Vec3}} */
+  put(place) {
+    this.last = heldTo(place, this.start, axisOf(this.axis, this.turn), this.axis.includes('plane'));
+    return { place: this.last };
   }
 
   /** By an arrow key: m to the right and up on the screen, held to the axis.

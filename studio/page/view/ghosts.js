@@ -6,7 +6,7 @@ import * as THREE from 'three';
 import { colours, inkOf } from '../colours.js';
 import { lyingPose } from '../faces.js';
 import { moves, turnAt } from '../motion.js';
-import { nailPlaces, placeHeld } from '../overlay/hoops.js';
+import { singleNails, placeHeld } from '../overlay/hoops.js';
 import { place } from './bodies.js';
 
 /** @typedef {import('../types.js').State} State */
@@ -55,7 +55,7 @@ export class Ghosts {
       if (lying) {
         this.show(wanted, `lying ${facing.body}`, bodies[facing.body], colours.nail, 0.5, 4, [0], () => this.lying(lying, facing, motion));
       }
-      for (const held of nailPlaces(state)) {
+      for (const held of singleNails(state)) {
         const { nail, body, time } = held;
         if (!nail.on || !nail.available) continue;
         this.show(wanted, `nail ${nail.id}`, bodies[body], colours.nail, 0.25, 4, [time], () => this.nailed(held, motion));

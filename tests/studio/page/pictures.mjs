@@ -118,6 +118,19 @@ async function meet(page) {
   await keep(page, 'meet');
 }
 
+/** A curve that no hat can fly, drawn with the pen. */
+async function sketched(page) {
+  await page.click('#tool-pen');
+  const [x, y] = await place(page, 'hat', 0.1), [to_x, to_y] = await place(page, 'hat', 0.5);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move((x + to_x) / 2, (y + to_y) / 2 + 30, { steps: 12 });
+  await page.mouse.move(to_x, to_y, { steps: 12 });
+  await page.mouse.up();
+  await until(page, '(s) => s.notice?.key === "sketched" && s.document.nails.length > 9', patience);
+  await keep(page, 'sketched', 'view');
+}
+
 const oneGoal = (document) => ({ ...document, constraints: document.constraints.slice(0, 1) });
 const narrow = (document) => ({ ...document, controls: [{ vary: 'velocity', body: 'hat', min: -4.5, max: 4.5 }], constraints: [] });
 /** A motion that is handed on, with the one before. */
@@ -136,7 +149,7 @@ async function handedOn(keep_open, browser) {
 await closing(async (keep) => {
   const browser = keep(await launch());
   const acts = [['hat-on-coatrack.json', drag], ['hat-on-coatrack.json', nails, oneGoal], ['mug-on-mark.json', impact], ['hat-on-coatrack.json', cannot, narrow],
-    ['hat-on-coatrack.json', meet], ['book-on-shelf.json', others]];
+    ['hat-on-coatrack.json', meet], ['book-on-shelf.json', others], ['hat-on-coatrack.json', sketched, (document) => ({ ...document, constraints: [] })]];
   for (const [scene, act, change] of acts) if (!only || act.name === only) await withStudio(browser, scene, act, change);
   if (!only || only === 'exported') await handedOn(keep, browser);
 });

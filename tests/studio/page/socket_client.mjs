@@ -53,6 +53,7 @@ export class Client {
       this.parts = [];
       const message = opcode === 1 ? JSON.parse(data.toString()) : opcode === 2 ? JSON.parse(data.subarray(8, 8 + data.readUInt32LE(4)).toString()) : null;
       if (message) this.hear(message);
+      if (opcode === 9) this.socket.write(Buffer.from([0x8a, 0x80, 0, 0, 0, 0]));  // a ping: or it is taken for dead after half a minute
     }
   }
 
