@@ -81,7 +81,8 @@ LEFT_OUT = {
                      "Tier", "Law", "GltfKeys", "nameOf", "branchOf"], WORDS),
     **dict.fromkeys(["Body", "Material", "Inertia", "Tilt", "CollisionFilter", "Combine", "Shape", "Sphere", "Box", "Plane",
                      "Capsule", "Cylinder", "Cone", "Hull", "Mesh", "Compound", "CompoundPart", "Surface", "Target",
-                     "Constraint", "validate", "nailConstraint"], DICT),
+                     "Constraint", "validate", "nailConstraint", "Distribution", "NormalDistribution", "LogNormalDistribution",
+                     "UniformDistribution", "UniformOrientation"], DICT),
     **dict.fromkeys(["ContactSource", "ContactGeometry", "ContactJacobian", "ContactMotion", "PairTangent", "PlacedContact",
                      "PersistentFeatures", "PredictedImpact", "kSearchedSoFar", "OdeContacts", "Pose", "PoseRate", "WorkCount",
                      "WorkEnded", "BodyGeometry", "FeatureLimit", "mayCollide"], CONTACTS),
@@ -160,7 +161,7 @@ CLASSES = {
     "EditOptions": ("editing/edit_options.h", "Edit.solve", {
         "time_budget_seconds": "time_budget", "stop": "progress", "abandon": ALWAYS}),
     "Control": ("editing/control.h", "Control", {
-        "notes": DICT, "within": "min", "atLeast": "min", "atMost": "max", "only": "components", "weighted": "weight"}),
+        "notes": DICT, "distribution": DICT, "within": "min", "atLeast": "min", "atMost": "max", "only": "components", "weighted": "weight"}),
 }
 
 
