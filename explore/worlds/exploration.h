@@ -46,7 +46,8 @@ struct ExploredRow {
   std::string name;             ///< "position.x of 'ball' at 1.4 s"
   std::string unit;             ///< " m", with a space before it; empty where there is none
   int constraint = -1;          ///< index of its Constraint
-  double lower = 0, upper = 0;  ///< SI, what the constraint asks for; equal where that is a number
+  double lower = 0;             ///< SI, least value that the constraint asks for
+  double upper = 0;             ///< SI, largest; equal where it asks for a number
   double scale = 1;             ///< natural scale of the value, SI
   bool isRange() const { return !(lower == upper); }  ///< whether it asks for a range
 };

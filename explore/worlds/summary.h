@@ -17,7 +17,8 @@ namespace carom {
 struct Share {
   std::uint64_t count = 0;      ///< worlds
   double share = 0;             ///< of those that count
-  double lower = 0, upper = 1;  ///< of the interval
+  double lower = 0;             ///< end of the interval
+  double upper = 1;             ///< end of the interval
 };
 /// Of `count` in `all` worlds; without any worlds nothing is known: 0 to 1.
 Share shareOf(std::uint64_t count, std::uint64_t all);
@@ -33,7 +34,8 @@ struct Outcome {
 /// What worlds say of one row.
 struct RowSummary {
   std::uint64_t count = 0;            ///< worlds that have it
-  double mean = 0, deviation = 0;     ///< SI, of these; NaN without any; the deviation with n - 1
+  double mean = 0;                    ///< SI, of these; NaN without any
+  double deviation = 0;               ///< SI, standard deviation with n - 1; NaN without any
   std::array<double, 5> quantiles{};  ///< SI, at 2.5, 25, 50, 75 and 97.5 %; NaN without any
   Share within;                       ///< of all worlds: it exists, and is within the range; only of a range
 };
@@ -54,7 +56,8 @@ struct ExploreSummary {
   /// Every row and required impact is there, and every range is kept to. Rows that ask for a number do not count: no
   /// world has that exactly.
   Share met;
-  std::uint64_t without_derivative = 0, unreliable = 0;  ///< worlds with these flags
+  std::uint64_t without_derivative = 0;  ///< worlds with a row that has no derivative
+  std::uint64_t unreliable = 0;          ///< worlds whose derivatives are not reliable
 };
 
 /// Counts a table of the exploration.
@@ -62,7 +65,7 @@ ExploreSummary summarise(const Exploration& exploration, const WorldTable& table
 
 /// A world, and how far it is from what the constraints ask for.
 struct NearWorld {
-  std::uint64_t world = 0;
+  std::uint64_t world = 0;  ///< its index
   double distance = 0;  ///< sqrt(sum (r / s)^2), r how far a row is off, s its natural scale
 };
 /// The worlds nearest to what the constraints ask for, the nearest first, of those that have all rows and required
